@@ -1,0 +1,53 @@
+#ifndef RELAX_IDS_HPP
+#define RELAX_IDS_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace relax {
+
+// Index spaces. Each is dense and starts at 0.
+using ObjectId = std::uint32_t;
+using FactId = std::uint32_t;
+using ActionId = std::uint32_t;
+using EffectId = std::uint32_t;
+using MethodId = std::uint32_t;
+// An action is the task of the same number; compound tasks follow the actions.
+using TaskId = std::uint32_t;
+
+// Fixed-point cost: the unit is chosen per problem, so that sums are exact.
+using Cost = std::int64_t;
+
+// Rows of different lengths in two flat arrays (compressed sparse rows).
+template <typename Value>
+class Rows {
+public:
+    std::size_t size() const { return ends_.size(); }
+    std::size_t value_count() const { return values_.size(); }
+
+    std::span<const Value> operator[](std::size_t row) const {
+        const std::size_t begin = row == 0 ? 0 : ends_[row - 1];
+        return {values_.data() + begin, ends_[row] - begin};
+    }
+
+    // Append to the row that `finish_row` will close.
+    void push(Value value) { values_.push_back(std::move(value)); }
+    void finish_row() { ends_.push_back(static_cast<std::uint32_t>(values_.size())); }
+
+    template <typename Range>
+    void add_row(const Range& range) {
+        values_.insert(values_.end(), std::begin(range), std::end(range));
+        finish_row();
+    }
+
+private:
+    std::vector<std::uint32_t> ends_;
+    std::vector<Value> values_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,43 @@
+"""Every error that a user can meet: what is wrong, where, what was found and what was expected."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A position in an input file; lines and columns count from 1."""
+
+    file: str
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+class StateHtnError(Exception):
+    """Bad input of any kind; the base of all errors that statehtn raises on purpose.
+
+    Args:
+        message: one sentence: what is wrong, what was found, what was expected and what to do.
+        place: where in the input, or None where there is no file.
+    """
+
+    def __init__(self, message: str, place: Place | None = None) -> None:
+        self.message = message
+        self.place = place
+        super().__init__(f"{place}: {message}" if place else message)
+
+
+class InputError(StateHtnError):
+    """The domain, the problem, a plan or a cost is malformed or contradicts itself (exit code 30)."""
+
+
+class UnsupportedError(StateHtnError):
+    """The input is well formed but asks for something that this planner does not do (exit code 31)."""
+
+
+class UsageError(StateHtnError, ValueError):
+    """An argument of the library or the command line is out of its range (exit code 2)."""

@@ -1,0 +1,45 @@
+"""The lifted cost-variable HTN problem, ground problems and plans."""
+
+from statehtn.model.costs import Arithmetic, CostBlock, CostDistribution, Expression, FunctionTerm, Number
+from statehtn.model.formula import TRUE, And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or
+from statehtn.model.ground import GroundAction, GroundEffect, GroundMethod, GroundProblem
+from statehtn.model.plan import Decomposition, Plan, Step
+from statehtn.model.problem import Action, Domain, Effect, Fact, Method, Problem, Signature, Subtask, TaskNetwork
+from statehtn.model.types import Parameter, TypeHierarchy
+
+__all__ = [
+    "TRUE",
+    "Action",
+    "And",
+    "Arithmetic",
+    "Atom",
+    "CostBlock",
+    "CostDistribution",
+    "Decomposition",
+    "Domain",
+    "Effect",
+    "Equals",
+    "Exists",
+    "Expression",
+    "Fact",
+    "Forall",
+    "Formula",
+    "FunctionTerm",
+    "GroundAction",
+    "GroundEffect",
+    "GroundMethod",
+    "GroundProblem",
+    "Method",
+    "Not",
+    "Number",
+    "OfType",
+    "Or",
+    "Parameter",
+    "Plan",
+    "Problem",
+    "Signature",
+    "Step",
+    "Subtask",
+    "TaskNetwork",
+    "TypeHierarchy",
+]

@@ -1,0 +1,103 @@
+"""Formulas of preconditions, goals, constraints and conditions; implication is read as a disjunction.
+
+A term is a string: a variable where it starts with a question mark, otherwise the name of an object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from statehtn.model.types import Parameter
+
+
+@dataclass(frozen=True, slots=True)
+class Atom:
+    """A predicate over terms, such as `(at ?v l1)`."""
+
+    predicate: str
+    arguments: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return f"({' '.join((self.predicate, *self.arguments))})"
+
+
+@dataclass(frozen=True, slots=True)
+class Equals:
+    """Two terms name the same object."""
+
+    left: str
+    right: str
+
+
+@dataclass(frozen=True, slots=True)
+class OfType:
+    """A term names an object of one of the types (HDDL's sort constraint)."""
+
+    term: str
+    types: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Not:
+    """The operand does not hold."""
+
+    operand: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class And:
+    """All operands hold; without operands it is true."""
+
+    operands: tuple[Formula, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Or:
+    """One of the operands holds; without operands it is false."""
+
+    operands: tuple[Formula, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Exists:
+    """The body holds for some objects."""
+
+    parameters: tuple[Parameter, ...]
+    body: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class Forall:
+    """The body holds for all objects."""
+
+    parameters: tuple[Parameter, ...]
+    body: Formula
+
+
+Formula = Atom | Equals | OfType | Not | And | Or | Exists | Forall
+TRUE = And(())
+
+
+def is_variable(term: str) -> bool:
+    """Tell whether a term is a variable."""
+    return term.startswith("?")
+
+
+def free_variables(formula: Formula) -> Iterator[str]:
+    """Yield the variables that no quantifier of the formula binds, in order of appearance, with repetitions."""
+    match formula:
+        case Atom(_, terms):
+            yield from filter(is_variable, terms)
+        case Equals(left, right):
+            yield from filter(is_variable, (left, right))
+        case OfType(term, _):
+            yield from filter(is_variable, (term,))
+        case Not(operand):
+            yield from free_variables(operand)
+        case And(operands) | Or(operands):
+            for operand in operands:
+                yield from free_variables(operand)
+        case Exists(parameters, body) | Forall(parameters, body):
+            bound = {parameter.name for parameter in parameters}
+            yield from (name for name in free_variables(body) if name not in bound)

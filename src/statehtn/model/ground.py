@@ -1,0 +1,89 @@
+"""The ground problem as Python objects: what the reference implementation, graphs and tests read.
+
+Facts, actions, compound tasks and methods are numbered from 0. A task is an `int`: action `a` is task `a`,
+compound task `c` is task `len(actions) + c`. The order of facts inside sets carries no meaning.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from statehtn.model.costs import CostDistribution
+from statehtn.model.problem import Fact
+
+
+@dataclass(frozen=True, slots=True)
+class GroundEffect:
+    """Facts that become true and false if the condition holds in the state before; adding wins over deleting."""
+
+    added: frozenset[int]
+    deleted: frozenset[int]
+    condition: frozenset[int] = frozenset()
+    negative_condition: frozenset[int] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class GroundAction:
+    """A ground action. Artificial ones (method preconditions, the goal) have `is_artificial` set and cost 0.
+
+    An action whose precondition is a disjunction or whose cost depends on the state stands here several times, once
+    for each case; a compound task of the same name then chooses between them.
+    """
+
+    name: str
+    arguments: tuple[str, ...]
+    precondition: frozenset[int]
+    negative_precondition: frozenset[int]
+    effects: tuple[GroundEffect, ...]
+    cost: CostDistribution
+    is_artificial: bool = False
+
+    def is_applicable(self, state: frozenset[int]) -> bool:
+        """Tell whether the action can be executed in a state."""
+        return self.precondition <= state and self.negative_precondition.isdisjoint(state)
+
+    def apply(self, state: frozenset[int]) -> frozenset[int]:
+        """Return the state after the action."""
+        added: set[int] = set()
+        deleted: set[int] = set()
+        for effect in self.effects:
+            if effect.condition <= state and effect.negative_condition.isdisjoint(state):
+                added |= effect.added
+                deleted |= effect.deleted
+        return (state - deleted) | added
+
+
+@dataclass(frozen=True, slots=True)
+class GroundMethod:
+    """A ground method: the compound task that it decomposes, its subtasks, and pairs (i, j) of subtask indices, i before j."""
+
+    name: str
+    arguments: tuple[str, ...]
+    task: int
+    subtasks: tuple[int, ...]
+    ordering: tuple[tuple[int, int], ...]
+
+
+@dataclass(frozen=True)
+class GroundProblem:
+    """A ground cost-variable HTN problem with one initial task, whose only methods stand for the initial network."""
+
+    facts: tuple[Fact, ...]
+    actions: tuple[GroundAction, ...]
+    tasks: tuple[tuple[str, ...], ...]
+    methods: tuple[GroundMethod, ...]
+    initial_state: frozenset[int]
+    initial_task: int
+
+    @cached_property
+    def methods_of(self) -> dict[int, tuple[int, ...]]:
+        """For every compound task the methods that decompose it."""
+        found: dict[int, list[int]] = {len(self.actions) + c: [] for c in range(len(self.tasks))}
+        for index, method in enumerate(self.methods):
+            found[method.task].append(index)
+        return {task: tuple(indices) for task, indices in found.items()}
+
+    def is_primitive(self, task: int) -> bool:
+        """Tell whether a task is an action."""
+        return task < len(self.actions)

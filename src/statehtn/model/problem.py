@@ -1,0 +1,142 @@
+"""The lifted cost-variable HTN problem: immutable, and free of any syntax."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from statehtn.model.costs import CostBlock, FunctionValues
+from statehtn.model.formula import TRUE, Atom, Formula
+from statehtn.model.types import Parameter, TypeHierarchy
+
+Fact = tuple[str, ...]
+"""A ground atom: (predicate, *objects)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """A name with typed parameters: a predicate, a function or a compound task."""
+
+    name: str
+    parameters: tuple[Parameter, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """One literal that an action makes true or false, for all bindings of `parameters` under which `condition` holds.
+
+    Conditions are evaluated in the state before the action; what is added wins over what is deleted.
+    """
+
+    atom: Atom
+    positive: bool = True
+    condition: Formula = TRUE
+    parameters: tuple[Parameter, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """A primitive task: a cost-variable operator with one (deterministic) effect (paper Definition 4.4 with one effect)."""
+
+    name: str
+    parameters: tuple[Parameter, ...] = ()
+    precondition: Formula = TRUE
+    effects: tuple[Effect, ...] = ()
+    costs: tuple[CostBlock, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Subtask:
+    """An occurrence of a task, primitive or compound, in a task network; its label is unique there."""
+
+    label: str
+    task: str
+    arguments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class TaskNetwork:
+    """Tasks and their order: pairs (i, j) of indices into `subtasks`, i before j; acyclic, not necessarily transitive.
+
+    `constraints` is a formula over `Equals` and `OfType` only.
+    """
+
+    subtasks: tuple[Subtask, ...] = ()
+    ordering: tuple[tuple[int, int], ...] = ()
+    constraints: Formula = TRUE
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """One way to decompose the compound task `task(arguments)` into a network; its parameters bind every variable in it."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    task: str
+    arguments: tuple[str, ...]
+    network: TaskNetwork = TaskNetwork()
+    precondition: Formula = TRUE
+
+
+@dataclass(frozen=True)
+class Domain:
+    """What problems share. Mappings are by name, in order of declaration; `constants` maps an object to its type."""
+
+    name: str
+    types: TypeHierarchy = TypeHierarchy()
+    constants: Mapping[str, str] = field(default_factory=dict)
+    predicates: Mapping[str, Signature] = field(default_factory=dict)
+    functions: Mapping[str, Signature] = field(default_factory=dict)
+    tasks: Mapping[str, Signature] = field(default_factory=dict)
+    actions: Mapping[str, Action] = field(default_factory=dict)
+    methods: Mapping[str, Method] = field(default_factory=dict)
+
+    @cached_property
+    def has_unit_costs(self) -> bool:
+        """True where no action states a cost: then every action costs 1."""
+        return not any(action.costs for action in self.actions.values())
+
+
+@dataclass(frozen=True)
+class Problem:
+    """An HTN problem: initial state, initial task network and goal over a domain.
+
+    Args:
+        objects: the problem's own objects with their types; constants of the domain are not repeated.
+        parameters: variables of the initial network, to be bound to any objects.
+        initial_state: the facts that are true; all others are false.
+        function_values: values for cost expressions.
+        goal: a formula over facts that must hold in the end, besides the network being accomplished.
+    """
+
+    name: str
+    domain: Domain
+    objects: Mapping[str, str] = field(default_factory=dict)
+    parameters: tuple[Parameter, ...] = ()
+    network: TaskNetwork = TaskNetwork()
+    initial_state: frozenset[Fact] = frozenset()
+    function_values: FunctionValues = field(default_factory=dict)
+    goal: Formula = TRUE
+
+    @cached_property
+    def all_objects(self) -> dict[str, str]:
+        """All objects, constants first, with their types."""
+        return {**self.domain.constants, **self.objects}
+
+    @cached_property
+    def objects_by_type(self) -> dict[str, tuple[str, ...]]:
+        """For every type the objects of it or of a type below it, in order of declaration."""
+        types = self.domain.types
+        found: dict[str, list[str]] = {name: [] for name in types.parents}
+        for name, kind in self.all_objects.items():
+            for above in types.supertypes(kind):
+                found.setdefault(above, []).append(name)
+        return {kind: tuple(names) for kind, names in found.items()}
+
+    def objects_of(self, types: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the objects of any of the types, in order of declaration."""
+        if len(types) == 1:
+            return self.objects_by_type.get(types[0], ())
+        wanted = {name for kind in types for name in self.objects_by_type.get(kind, ())}
+        return tuple(name for name in self.all_objects if name in wanted)
