@@ -41,3 +41,7 @@ class UnsupportedError(StateHtnError):
 
 class UsageError(StateHtnError, ValueError):
     """An argument of the library or the command line is out of its range (exit code 2)."""
+
+
+class InternalError(Exception):
+    """The planner has caught itself in a mistake (exit code 70); not the user's fault, and worth a report."""

@@ -1,0 +1,81 @@
+# Everything happens in the virtual environment .venv; stamp files in it remember what is done.
+# All paths are relative, so that the name of the working directory may contain spaces.
+
+PYTHON ?= python3
+VENV := .venv
+RUN := $(VENV)/bin/python
+PIP := $(RUN) -m pip --disable-pip-version-check --quiet
+# Directories are listed, too: their time changes when a file is added or removed.
+CORE_SOURCES := $(shell find relax)
+# The sessions of noxfile.py run in this environment here, not in ones of their own.
+NOX := PATH="$(CURDIR)/$(VENV)/bin:$$PATH" $(RUN) -m nox --no-venv --sessions
+HYPOTHESIS_PROFILE := $(if $(CI),ci,dev)
+AV := domains/av/domain.hddl domains/av/p1.hddl
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint format core-test benchmark clean check-python check-compiler
+.DELETE_ON_ERROR:
+
+help:  ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*##/\1:/p' Makefile | awk -F ': *' '{ printf "  make %-12s %s\n", $$1, $$2 }'
+
+demo: $(VENV)/.installed  ## plan for a vehicle that avoids, ignores and seeks risk
+	@$(RUN) -m statehtn plan $(AV) --attitude averse --alpha 0.9
+	@$(RUN) -m statehtn plan $(AV) --attitude neutral
+	@$(RUN) -m statehtn plan $(AV) --attitude seeking --alpha 0.9
+	@$(RUN) examples/demo.py $(AV)
+
+test: $(VENV)/.installed  ## run the whole test suite (with more random examples where CI is set)
+	$(RUN) -m pytest --hypothesis-profile=$(HYPOTHESIS_PROFILE) $(PYTEST_OPTIONS)
+
+lint: $(VENV)/.installed $(VENV)/.lint-tools  ## check style, types, layers and formatting
+	$(NOX) lint
+
+format: $(VENV)/.lint-tools  ## format the Python and C++ sources
+	$(NOX) format
+
+core-test: $(VENV)/.lint-tools  ## build the core without Python, warnings as errors, and run its tests under sanitizers
+	$(NOX) core
+
+benchmark: $(VENV)/.installed  ## time the problems of the paper
+	$(RUN) -m tests.benchmarks.paper
+
+clean:  ## remove everything that was built, the virtual environment included
+	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache .nox .benchmarks
+	find src tests -name __pycache__ -prune -exec rm -rf {} +
+	rm -f src/statehtn/_relax*.so
+
+$(VENV)/.created: | check-python
+	$(PYTHON) -m venv $(VENV)
+	$(PIP) install --upgrade 'pip>=25.1'
+	@touch $@
+
+$(VENV)/.build-tools: pyproject.toml $(VENV)/.created
+	$(PIP) install --group build
+	@touch $@
+
+$(VENV)/.installed: pyproject.toml $(CORE_SOURCES) $(VENV)/.build-tools | check-compiler
+	$(PIP) install --no-build-isolation --editable '.[test]'
+	@touch $@
+
+$(VENV)/.lint-tools: pyproject.toml $(VENV)/.build-tools
+	$(PIP) install --group lint
+	@touch $@
+
+# Each check says in one line what is missing and how to get it.
+check-python:
+	@command -v $(PYTHON) >/dev/null || { \
+	  echo "error: $(PYTHON) not found; install Python 3.11 or newer (Debian/Ubuntu: apt install python3 python3-venv python3-dev; Fedora: dnf install python3-devel; macOS: brew install python) or call make with PYTHON=/path/to/python" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "error: $$($(PYTHON) --version) is too old; install Python 3.11 or newer and call make with PYTHON=python3.11, say" >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+	  echo "error: $(PYTHON) has no venv module; install it (Debian/Ubuntu: apt install python3-venv; Fedora: dnf install python3-pip; macOS: brew install python)" >&2; exit 1; }
+
+check-compiler: check-python
+	@$(PYTHON) -c 'import os, sys, sysconfig; sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h")))' || { \
+	  echo "error: the header files of $(PYTHON) are missing; install them (Debian/Ubuntu: apt install python3-dev; Fedora: dnf install python3-devel; macOS: brew install python)" >&2; exit 1; }
+	@for compiler in "$$CXX" c++ g++ clang++; do \
+	  if test -n "$$compiler" && printf '#include <concepts>\n#include <span>\nint main() { return 0; }\n' \
+	    | $$compiler -std=c++20 -fsyntax-only -x c++ - 2>/dev/null; then exit 0; fi; \
+	done; \
+	echo "error: no C++20 compiler found (tried \$$CXX, c++, g++, clang++); install one (Debian/Ubuntu: apt install g++; Fedora: dnf install gcc-c++; macOS: xcode-select --install)" >&2; exit 1

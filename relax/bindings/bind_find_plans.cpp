@@ -1,0 +1,128 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/vector.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "python_limits.hpp"
+#include "relax/find_plans.hpp"
+#include "relax/state.hpp"
+#include "relax/tdg_bound.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+// A heuristic on its own, for states and networks of the caller's choice.
+class Evaluator {
+public:
+    Evaluator(const relax::GroundProblem& problem, const std::vector<relax::Cost>& costs, relax::HeuristicKind kind)
+        : problem_(problem),
+          bounds_(relax::tdg_bound(problem, costs)),
+          heuristic_(relax::make_heuristic(kind, problem, costs)) {}
+
+    std::optional<relax::Cost> evaluate(const std::vector<relax::FactId>& facts, const std::vector<relax::TaskId>& tasks) {
+        relax::StateBits state(relax::StateTransition(problem_).word_count(), 0);
+        for (const relax::FactId fact : facts) {
+            if (fact >= problem_.fact_count()) {
+                throw std::out_of_range("no such fact: " + std::to_string(fact));
+            }
+            relax::set_fact(state, fact);
+        }
+        relax::Cost bound = 0;
+        for (const relax::TaskId task : tasks) {
+            if (task >= problem_.task_count()) {
+                throw std::out_of_range("no such task: " + std::to_string(task));
+            }
+            bound = relax::add_bounds(bound, bounds_[task]);
+        }
+        return heuristic_->evaluate({state, tasks, bound});
+    }
+
+private:
+    const relax::GroundProblem& problem_;
+    std::vector<relax::Cost> bounds_;
+    std::unique_ptr<relax::Heuristic> heuristic_;
+};
+
+relax::SearchResult find_plans(const relax::GroundProblem& problem, std::vector<relax::Cost> costs,
+                               const relax::SearchOptions& options, std::optional<double> seconds,
+                               std::optional<std::size_t> memory_bytes, const nb::object& progress) {
+    if (costs.size() != problem.action_count()) {
+        throw std::invalid_argument("there must be one cost for each action");
+    }
+    relax::SearchStatistics statistics;
+    std::function<void()> watch;
+    if (!progress.is_none()) {
+        watch = [&] { progress(statistics); };
+    }
+    relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
+    const nb::gil_scoped_release no_gil;
+    return relax::FindPlans(problem, std::move(costs), options, limits, statistics).run();
+}
+
+}  // namespace
+
+void bind_find_plans(nb::module_& module) {
+    nb::enum_<relax::HeuristicKind>(module, "HeuristicKind")
+        .value("Blind", relax::HeuristicKind::Blind)
+        .value("Tdg", relax::HeuristicKind::Tdg)
+        .value("HMax", relax::HeuristicKind::HMax)
+        .value("LmCut", relax::HeuristicKind::LmCut);
+    nb::enum_<relax::SearchAlgorithm>(module, "SearchAlgorithm")
+        .value("AStar", relax::SearchAlgorithm::AStar)
+        .value("Weighted", relax::SearchAlgorithm::Weighted)
+        .value("Greedy", relax::SearchAlgorithm::Greedy);
+    nb::enum_<relax::SearchStatus>(module, "SearchStatus")
+        .value("Optimal", relax::SearchStatus::Optimal)
+        .value("Solved", relax::SearchStatus::Solved)
+        .value("Unsolvable", relax::SearchStatus::Unsolvable)
+        .value("TimeLimit", relax::SearchStatus::TimeLimit)
+        .value("MemoryLimit", relax::SearchStatus::MemoryLimit)
+        .value("Interrupted", relax::SearchStatus::Interrupted);
+
+    nb::class_<relax::SearchOptions>(module, "SearchOptions")
+        .def(nb::init<>())
+        .def_rw("heuristic", &relax::SearchOptions::heuristic)
+        .def_rw("algorithm", &relax::SearchOptions::algorithm)
+        .def_rw("weight", &relax::SearchOptions::weight)
+        .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)
+        .def_rw("inherit_h", &relax::SearchOptions::inherit_h);
+
+    nb::class_<relax::SearchStatistics>(module, "SearchStatistics")
+        .def_ro("expanded", &relax::SearchStatistics::expanded)
+        .def_ro("generated", &relax::SearchStatistics::generated)
+        .def_ro("evaluated", &relax::SearchStatistics::evaluated)
+        .def_ro("dead_ends", &relax::SearchStatistics::dead_ends)
+        .def_ro("lower_bound", &relax::SearchStatistics::lower_bound)
+        .def_ro("best", &relax::SearchStatistics::best);
+
+    nb::class_<relax::DecompositionNode>(module, "DecompositionNode")
+        .def_ro("task", &relax::DecompositionNode::task)
+        .def_ro("method", &relax::DecompositionNode::method)
+        .def_ro("parent", &relax::DecompositionNode::parent)
+        .def_ro("subtask", &relax::DecompositionNode::subtask);
+
+    nb::class_<relax::SearchResult>(module, "SearchResult")
+        .def_ro("status", &relax::SearchResult::status)
+        .def_ro("statistics", &relax::SearchResult::statistics)
+        .def_ro("cost", &relax::SearchResult::cost)
+        .def_ro("decomposition", &relax::SearchResult::decomposition)
+        .def_ro("plan", &relax::SearchResult::plan);
+
+    nb::class_<Evaluator>(module, "Evaluator")
+        .def(nb::init<const relax::GroundProblem&, const std::vector<relax::Cost>&, relax::HeuristicKind>(), "problem"_a,
+             "costs"_a, "kind"_a, nb::keep_alive<1, 2>())
+        .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a);
+
+    module.def("find_plans", &find_plans, "problem"_a, "costs"_a, "options"_a, "seconds"_a = nb::none(),
+               "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
+}

@@ -1,0 +1,73 @@
+#ifndef RELAX_FIND_PLANS_HPP
+#define RELAX_FIND_PLANS_HPP
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "relax/ground_problem.hpp"
+#include "relax/heuristic.hpp"
+#include "relax/ids.hpp"
+#include "relax/limits.hpp"
+#include "relax/open_list.hpp"
+#include "relax/progression.hpp"
+#include "relax/search_node.hpp"
+#include "relax/search_result.hpp"
+
+namespace relax {
+
+enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy };
+
+struct SearchOptions {
+    HeuristicKind heuristic = HeuristicKind::LmCut;
+    SearchAlgorithm algorithm = SearchAlgorithm::AStar;
+    double weight = 1.0;         // of h, for Weighted; at least 1
+    bool use_tdg_bound = true;   // bound nodes by the decomposition graph before the heuristic is asked
+    bool inherit_h = true;       // a node's h is at least its parent's less the cost of the step
+};
+
+// FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower bound
+// until they are popped; then the heuristic is asked, and if f rises they are put back. A pair of state and network is kept once and
+// reopened when a cheaper way to it turns up.
+//
+// Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
+class FindPlans {
+public:
+    // `costs`: by ActionId, at least 0. `statistics` is kept up to date for whoever watches from `limits.poll`.
+    FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+              SearchStatistics& statistics);
+
+    // Throws std::overflow_error if costs add up to more than fixed point can hold.
+    SearchResult run();
+
+private:
+    std::optional<StopReason> search();
+    bool is_stale(const OpenList::Entry& entry) const;
+    bool evaluate(NodeId id);
+    void expand(NodeId id);
+    void generate(NodeId parent, const Successor& successor);
+    Cost cheap_bound(const SearchNode& parent, const Successor& successor);
+    Cost priority(const SearchNode& node) const;
+    void push(NodeId id);
+    Cost open_bound() const;
+    void trace(NodeId goal, SearchResult& result);
+
+    const GroundProblem& problem_;
+    std::vector<Cost> costs_;
+    SearchOptions options_;
+    Limits& limits_;
+    SearchStatistics& statistics_;
+    Progression progression_;
+    std::unique_ptr<Heuristic> heuristic_;
+    DuplicateRegistry nodes_;
+    OpenList open_;
+    std::optional<NodeId> goal_;  // of the best plan so far
+    std::vector<Successor> successors_;
+    std::vector<TaskId> tasks_;
+};
+
+}  // namespace relax
+
+#endif

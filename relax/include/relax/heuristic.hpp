@@ -1,0 +1,36 @@
+#ifndef RELAX_HEURISTIC_HPP
+#define RELAX_HEURISTIC_HPP
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "relax/ground_problem.hpp"
+#include "relax/ids.hpp"
+
+namespace relax {
+
+enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut };
+
+// What a heuristic sees of a search node.
+struct NodeView {
+    std::span<const std::uint64_t> state;  // bits by FactId
+    std::span<const TaskId> tasks;         // of the network, with repetitions
+    Cost tdg_bound;                        // of the network
+};
+
+class Heuristic {
+public:
+    virtual ~Heuristic() = default;
+
+    // Estimate the cost that is still to come; nothing where the node is a dead end.
+    virtual std::optional<Cost> evaluate(const NodeView& node) = 0;
+};
+
+// `costs`: by ActionId. All kinds are admissible, and say dead end only where it is true.
+std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs);
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,67 @@
+#ifndef RELAX_HMAX_HPP
+#define RELAX_HMAX_HPP
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "relax/relaxed_model.hpp"
+
+namespace relax {
+
+// The max heuristic (Bonet and Geffner 2001): the cost of a fact is that of its cheapest achiever, the cost of an
+// operator's preconditions is that of the dearest one. Computed as a generalised Dijkstra search.
+// Keeps what LM-cut needs: each operator's supporter (the precondition of that highest cost), and an incremental update
+// for operators that become cheaper.
+class HMax {
+public:
+    static constexpr Cost kInfinite = std::numeric_limits<Cost>::max();
+
+    explicit HMax(const RelaxedModel& model);
+
+    // Compute from scratch; `costs` by OwnerId. Returns the cost of the dearest goal, or nothing where one is out of reach.
+    std::optional<Cost> run(const RelaxedTask& task, std::span<const Cost> costs);
+
+    // Update after the costs of the owners of these operators have been lowered. Returns the cost of the dearest goal.
+    Cost lower(std::span<const OperatorId> operators, std::span<const Cost> costs);
+
+    Cost cost(RelaxedFact fact) const { return facts_[fact].epoch == epoch_ ? facts_[fact].cost : kInfinite; }
+    // An operator of this task all of whose preconditions are within reach.
+    bool is_reached(OperatorId op) const { return operators_[op].epoch == epoch_ && operators_[op].missing == 0; }
+    RelaxedFact supporter(OperatorId op) const { return operators_[op].supporter; }
+    // The dearest goal; meaningless where there are no goals.
+    RelaxedFact dearest_goal() const { return dearest_goal_; }
+
+private:
+    struct FactState {
+        Cost cost;
+        std::uint32_t epoch;
+    };
+    struct OperatorState {
+        Cost supporter_cost;
+        RelaxedFact supporter;
+        std::uint32_t missing;  // preconditions not yet reached
+        std::uint32_t epoch;
+    };
+    using QueueEntry = std::pair<Cost, RelaxedFact>;
+
+    void offer(RelaxedFact fact, Cost cost);
+    QueueEntry pop();
+    void support_by_dearest(OperatorId op);
+    Cost find_dearest_goal();
+
+    const RelaxedModel& model_;
+    std::vector<FactState> facts_;
+    std::vector<OperatorState> operators_;
+    std::vector<QueueEntry> queue_;  // a heap, cheapest first
+    std::vector<RelaxedFact> goals_;
+    RelaxedFact dearest_goal_ = 0;
+    std::uint32_t epoch_ = 0;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,63 @@
+#ifndef RELAX_PROGRESSION_HPP
+#define RELAX_PROGRESSION_HPP
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "relax/ground_problem.hpp"
+#include "relax/ids.hpp"
+#include "relax/state.hpp"
+#include "relax/task_network.hpp"
+
+namespace relax {
+
+// What leads from a node to the next: an action executed (no method), or a compound task decomposed.
+struct SearchStep {
+    std::uint32_t occurrence = 0;  // index in the network before the step
+    std::optional<MethodId> method;
+};
+
+struct Successor {
+    StateId state;
+    NetworkId network;
+    Cost cost;
+    SearchStep step;
+};
+
+// Progression over states and task networks; knows nothing of search algorithms.
+//
+// Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend on the
+// state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to try the methods of
+// one of them. An applicable action that costs and changes nothing (a method precondition) can only be in the way: executing it at
+// once is enough, too. Otherwise every applicable unconstrained action is tried.
+class Progression {
+public:
+    // `costs`: by ActionId. `task_bounds`: see tdg_bound.
+    Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds);
+
+    StateId initial_state();
+    NetworkId initial_network() { return networks_->initial(); }
+    // Replace the content of `successors` by the node's successors.
+    void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
+
+    const StateRegistry& states() const { return states_; }
+    TaskNetworks& networks() { return *networks_; }
+
+private:
+    std::optional<Occurrence> compound_to_decompose() const;
+    Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
+
+    const GroundProblem& problem_;
+    std::vector<Cost> costs_;
+    StateTransition transition_;
+    StateRegistry states_;
+    std::unique_ptr<TaskNetworks> networks_;
+    std::vector<Occurrence> unconstrained_;
+    StateBits next_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef RELAX_RC_HEURISTIC_HPP
+#define RELAX_RC_HEURISTIC_HPP
+
+#include "relax/heuristic.hpp"
+#include "relax/relaxed_model.hpp"
+
+namespace relax {
+
+// computeRCAdHeur (the paper's Algorithm 5): an admissible classical heuristic on the relaxed model, in which methods are free
+// and actions cost what they are worth to the agent. The model is built once; a node only selects its part of it.
+template <typename ClassicalHeuristic>
+class RcHeuristic final : public Heuristic {
+public:
+    RcHeuristic(const GroundProblem& problem, std::span<const Cost> costs)
+        : model_(problem, costs), task_(model_), classical_(model_) {}
+
+    std::optional<Cost> evaluate(const NodeView& node) override {
+        task_.set(node.state, node.tasks);
+        return classical_.run(task_);
+    }
+
+private:
+    RelaxedModel model_;
+    RelaxedTask task_;
+    ClassicalHeuristic classical_;
+};
+
+}  // namespace relax
+
+#endif

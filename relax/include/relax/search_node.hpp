@@ -1,0 +1,73 @@
+#ifndef RELAX_SEARCH_NODE_HPP
+#define RELAX_SEARCH_NODE_HPP
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "relax/id_table.hpp"
+#include "relax/ids.hpp"
+#include "relax/progression.hpp"
+#include "relax/segmented_array.hpp"
+
+namespace relax {
+
+using NodeId = std::uint32_t;
+
+// A pair of state and network, and the cheapest way to it that is known.
+struct SearchNode {
+    Cost g;
+    Cost h;  // a lower bound of the cost to come
+    StateId state;
+    NetworkId network;
+    NodeId parent;  // itself for the root
+    std::uint32_t occurrence;
+    MethodId method;  // kExecuted where the step executed an action
+    bool is_evaluated;  // `h` includes the heuristic
+    bool is_expanded;   // at its present g
+
+    static constexpr MethodId kExecuted = std::numeric_limits<MethodId>::max();
+
+    void reach(NodeId from, Cost cost, const SearchStep& step) {
+        parent = from;
+        g = cost;
+        occurrence = step.occurrence;
+        method = step.method.value_or(kExecuted);
+        is_expanded = false;
+    }
+    SearchStep step() const {
+        return {occurrence, method == kExecuted ? std::nullopt : std::optional(method)};
+    }
+};
+
+// Every node that the search has met, once for each pair of state and network.
+class DuplicateRegistry {
+public:
+    SearchNode& operator[](NodeId id) { return nodes_[id]; }
+    const SearchNode& operator[](NodeId id) const { return nodes_[id]; }
+    std::size_t size() const { return nodes_.size(); }
+
+    std::optional<NodeId> find(StateId state, NetworkId network) const {
+        return table_.find(hash(state, network), [&](NodeId id) {
+            return nodes_[id].state == state && nodes_[id].network == network;
+        });
+    }
+
+    // Add a node for a pair that is not yet there.
+    NodeId add(StateId state, NetworkId network) {
+        const auto id = static_cast<NodeId>(nodes_.size());
+        nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, false, false});
+        table_.add(hash(state, network), id, [this](NodeId other) { return hash(nodes_[other].state, nodes_[other].network); });
+        return id;
+    }
+
+private:
+    static std::uint64_t hash(StateId state, NetworkId network) { return mix((std::uint64_t{state} << 32) | network); }
+
+    SegmentedArray<SearchNode> nodes_;
+    IdTable table_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef RELAX_SEARCH_RESULT_HPP
+#define RELAX_SEARCH_RESULT_HPP
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "relax/ids.hpp"
+
+namespace relax {
+
+enum class SearchStatus : std::uint8_t { Optimal, Solved, Unsolvable, TimeLimit, MemoryLimit, Interrupted };
+
+struct SearchStatistics {
+    std::uint64_t expanded = 0;
+    std::uint64_t generated = 0;
+    std::uint64_t evaluated = 0;
+    std::uint64_t dead_ends = 0;
+    std::optional<Cost> lower_bound;  // proven so far
+    std::optional<Cost> best;         // cost of the best plan so far
+};
+
+// A task of the plan's decomposition tree.
+struct DecompositionNode {
+    TaskId task;
+    std::optional<MethodId> method;        // of a compound task
+    std::optional<std::uint32_t> parent;   // index of a node; none for the initial task
+    std::uint32_t subtask = 0;             // which of the parent's method's subtasks it is
+};
+
+struct SearchResult {
+    SearchStatus status = SearchStatus::Unsolvable;
+    SearchStatistics statistics;
+    // If a plan was found: its cost, the tree, and the leaves in the order of their execution.
+    std::optional<Cost> cost;
+    std::vector<DecompositionNode> decomposition;  // parents before children
+    std::vector<std::uint32_t> plan;
+};
+
+}  // namespace relax
+
+#endif

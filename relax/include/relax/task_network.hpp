@@ -1,0 +1,59 @@
+#ifndef RELAX_TASK_NETWORK_HPP
+#define RELAX_TASK_NETWORK_HPP
+
+// Task networks as the search meets them: immutable, each kept once and known by a number. Where every method is totally
+// ordered, a network is a list that shares its rest with others (TotallyOrderedNetworks); otherwise it is a set of
+// occurrences with a transitively closed order in a canonical form (PartiallyOrderedNetworks).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "relax/ground_problem.hpp"
+#include "relax/ids.hpp"
+
+namespace relax {
+
+using NetworkId = std::uint32_t;
+
+// An occurrence of a task in a network: its index there.
+struct Occurrence {
+    std::uint32_t index;
+    TaskId task;
+};
+
+// Where an occurrence of a network comes from: an occurrence of the network before, or a subtask of the method applied.
+struct Origin {
+    bool is_subtask;
+    std::uint32_t index;
+};
+
+class TaskNetworks {
+public:
+    virtual ~TaskNetworks() = default;
+
+    // The network of the initial task alone.
+    virtual NetworkId initial() = 0;
+    // Append the occurrences that nothing is ordered before.
+    virtual void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const = 0;
+    // Append every task of the network, in no particular order, with repetitions.
+    virtual void tasks(NetworkId network, std::vector<TaskId>& tasks) const = 0;
+    // Take an unconstrained occurrence away. `origins`, where given, gets one entry for each occurrence of the result.
+    virtual NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins = nullptr) = 0;
+    // Replace an unconstrained occurrence by the method's subtasks.
+    virtual NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method,
+                                std::vector<Origin>* origins = nullptr) = 0;
+    // The sum of the tasks' decomposition-graph bounds.
+    virtual Cost bound(NetworkId network) const = 0;
+    virtual std::uint32_t size(NetworkId network) const = 0;
+
+    bool is_empty(NetworkId network) const { return size(network) == 0; }
+};
+
+// `task_bounds`: by TaskId, see tdg_bound.
+std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds);
+
+}  // namespace relax
+
+#endif

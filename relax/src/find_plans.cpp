@@ -1,0 +1,246 @@
+#include "relax/find_plans.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "relax/tdg_bound.hpp"
+
+namespace relax {
+
+namespace {
+
+constexpr Cost kDeadEnd = kNoDecomposition;
+
+SearchStatus status_of(StopReason reason) {
+    switch (reason) {
+        case StopReason::TimeLimit:
+            return SearchStatus::TimeLimit;
+        case StopReason::MemoryLimit:
+            return SearchStatus::MemoryLimit;
+        case StopReason::Interrupted:
+            break;
+    }
+    return SearchStatus::Interrupted;
+}
+
+}  // namespace
+
+FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+                     SearchStatistics& statistics)
+    : problem_(problem),
+      costs_(std::move(costs)),
+      options_(options),
+      limits_(limits),
+      statistics_(statistics),
+      progression_(problem, costs_, tdg_bound(problem, costs_)),
+      heuristic_(make_heuristic(options.heuristic, problem, costs_)) {}
+
+SearchResult FindPlans::run() {
+    SearchResult result;
+    if (!problem_.solvable) {
+        return result;
+    }
+    std::optional<StopReason> stop;
+    Cost proven = 0;
+    try {
+        stop = search();
+        proven = open_bound();  // every plan that was not found goes through an open node
+    } catch (const std::bad_alloc&) {
+        stop = StopReason::MemoryLimit;  // in the middle of an expansion: the open list is not complete
+    }
+    proven = std::max(proven, statistics_.lower_bound.value_or(0));
+    if (goal_) {
+        trace(*goal_, result);
+    }
+    if (result.cost) {
+        statistics_.best = result.cost;
+        statistics_.lower_bound = std::min(proven, *result.cost);
+        result.status = proven >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
+    } else if (stop) {
+        statistics_.lower_bound = proven;
+        result.status = status_of(*stop);
+    } else {
+        statistics_.lower_bound.reset();
+        result.status = SearchStatus::Unsolvable;
+    }
+    result.statistics = statistics_;
+    return result;
+}
+
+// Search until the best plan is as good as the algorithm promises, or nothing is open. Says why it stopped before that.
+std::optional<StopReason> FindPlans::search() {
+    const NodeId root = nodes_.add(progression_.initial_state(), progression_.initial_network());
+    push(root);
+    while (!open_.is_empty()) {
+        if (const auto stop = limits_.check()) {
+            return stop;
+        }
+        if (goal_ && (options_.algorithm == SearchAlgorithm::Greedy || open_.top().priority >= nodes_[*goal_].g)) {
+            return std::nullopt;
+        }
+        const OpenList::Entry entry = open_.pop();
+        if (is_stale(entry)) {
+            continue;
+        }
+        if (options_.algorithm == SearchAlgorithm::AStar) {
+            statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
+        }
+        if (!evaluate(entry.node)) {
+            continue;
+        }
+        if (priority(nodes_[entry.node]) > entry.priority) {
+            push(entry.node);
+            continue;
+        }
+        expand(entry.node);
+    }
+    return std::nullopt;
+}
+
+// The node has been expanded, or priced anew, since the entry was made.
+bool FindPlans::is_stale(const OpenList::Entry& entry) const {
+    const SearchNode& node = nodes_[entry.node];
+    return node.is_expanded || priority(node) != entry.priority;
+}
+
+// Ask the heuristic, if it has not been asked about this pair of state and network. False if the node is a dead end.
+bool FindPlans::evaluate(NodeId id) {
+    SearchNode& node = nodes_[id];
+    if (node.is_evaluated) {
+        return true;
+    }
+    tasks_.clear();
+    progression_.networks().tasks(node.network, tasks_);
+    const auto h = heuristic_->evaluate(
+        {progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
+    ++statistics_.evaluated;
+    node.is_evaluated = true;
+    if (!h) {
+        ++statistics_.dead_ends;
+        node.h = kDeadEnd;
+        return false;
+    }
+    node.h = std::max(node.h, *h);
+    return true;
+}
+
+void FindPlans::expand(NodeId id) {
+    nodes_[id].is_expanded = true;
+    ++statistics_.expanded;
+    progression_.expand(nodes_[id].state, nodes_[id].network, successors_);
+    for (const Successor& successor : successors_) {
+        generate(id, successor);
+    }
+}
+
+void FindPlans::generate(NodeId parent, const Successor& successor) {
+    ++statistics_.generated;
+    const Cost g = nodes_[parent].g + successor.cost;
+    if (g >= kDeadEnd) {
+        throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
+    }
+    const auto known = nodes_.find(successor.state, successor.network);
+    if (known && nodes_[*known].g <= g) {
+        return;
+    }
+    const NodeId id = known ? *known : nodes_.add(successor.state, successor.network);
+    SearchNode& node = nodes_[id];
+    node.reach(parent, g, successor.step);
+    if (progression_.networks().is_empty(node.network)) {
+        if (!goal_ || g < nodes_[*goal_].g || *goal_ == id) {
+            goal_ = id;
+            statistics_.best = g;
+        }
+        return;
+    }
+    node.h = std::max(node.h, cheap_bound(nodes_[parent], successor));
+    if (node.h < kDeadEnd && !(goal_ && g + node.h >= nodes_[*goal_].g)) {
+        push(id);
+    }
+}
+
+Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor) {
+    Cost bound = 0;
+    if (options_.use_tdg_bound && options_.heuristic != HeuristicKind::Blind) {
+        bound = progression_.networks().bound(successor.network);
+    }
+    if (options_.inherit_h) {
+        bound = std::max(bound, parent.h - successor.cost);
+    }
+    return bound;
+}
+
+Cost FindPlans::priority(const SearchNode& node) const {
+    switch (options_.algorithm) {
+        case SearchAlgorithm::AStar:
+            return node.g + node.h;
+        case SearchAlgorithm::Weighted: {
+            const double weighted = std::ceil(options_.weight * static_cast<double>(node.h));
+            return add_bounds(node.g, weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
+        }
+        case SearchAlgorithm::Greedy:
+            break;
+    }
+    return node.h;
+}
+
+void FindPlans::push(NodeId id) {
+    const SearchNode& node = nodes_[id];
+    open_.push(id, priority(node), node.h, progression_.networks().size(node.network));
+}
+
+// The least cost that a plan through an open node can have.
+Cost FindPlans::open_bound() const {
+    Cost bound = kDeadEnd;
+    for (const OpenList::Entry& entry : open_.entries()) {
+        const SearchNode& node = nodes_[entry.node];
+        if (!node.is_expanded) {
+            bound = std::min(bound, node.g + node.h);
+        }
+    }
+    return bound;
+}
+
+// Walk from the root to the goal once more and keep track of which task of the decomposition tree each occurrence is.
+void FindPlans::trace(NodeId goal, SearchResult& result) {
+    std::vector<SearchStep> steps;
+    for (NodeId id = goal; nodes_[id].parent != id; id = nodes_[id].parent) {
+        steps.push_back(nodes_[id].step());
+    }
+    std::reverse(steps.begin(), steps.end());
+
+    TaskNetworks& networks = progression_.networks();
+    NetworkId network = progression_.initial_network();
+    std::vector<std::uint32_t> tree_node{0};  // by occurrence
+    std::vector<std::uint32_t> next_tree_node;
+    std::vector<Origin> origins;
+    result.decomposition.push_back({problem_.initial_task, std::nullopt, std::nullopt, 0});
+    result.cost = 0;
+    for (const SearchStep& step : steps) {
+        const std::uint32_t here = tree_node[step.occurrence];
+        if (step.method) {
+            result.decomposition[here].method = step.method;
+            network = networks.decompose(network, step.occurrence, *step.method, &origins);
+        } else {
+            result.plan.push_back(here);
+            *result.cost += costs_[result.decomposition[here].task];
+            network = networks.progress(network, step.occurrence, &origins);
+        }
+        next_tree_node.clear();
+        for (const Origin& origin : origins) {
+            if (origin.is_subtask) {
+                next_tree_node.push_back(static_cast<std::uint32_t>(result.decomposition.size()));
+                const TaskId task = problem_.method_subtasks[*step.method][origin.index];
+                result.decomposition.push_back({task, std::nullopt, here, origin.index});
+            } else {
+                next_tree_node.push_back(tree_node[origin.index]);
+            }
+        }
+        tree_node.swap(next_tree_node);
+    }
+}
+
+}  // namespace relax

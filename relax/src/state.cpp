@@ -1,0 +1,77 @@
+#include "relax/state.hpp"
+
+#include <algorithm>
+
+namespace relax {
+
+namespace {
+
+std::uint64_t hash_words(std::span<const std::uint64_t> words) {
+    std::uint64_t hash = words.size();
+    for (const std::uint64_t word : words) {
+        hash = combine(hash, word);
+    }
+    return hash;
+}
+
+}  // namespace
+
+StateBits StateTransition::initial_state() const {
+    StateBits state(word_count(), 0);
+    for (const FactId fact : problem_.initial_state) {
+        set_fact(state, fact);
+    }
+    return state;
+}
+
+bool StateTransition::is_applicable(ActionId action, std::span<const std::uint64_t> state) const {
+    const auto is_true = [state](FactId fact) { return holds(state, fact); };
+    const auto needed = problem_.preconditions[action];
+    const auto forbidden = problem_.negative_preconditions[action];
+    return std::all_of(needed.begin(), needed.end(), is_true) && std::none_of(forbidden.begin(), forbidden.end(), is_true);
+}
+
+void StateTransition::apply(ActionId action, std::span<const std::uint64_t> state, std::span<std::uint64_t> next) const {
+    std::copy(state.begin(), state.end(), next.begin());
+    const EffectId begin = problem_.effect_begin[action];
+    const EffectId end = problem_.effect_begin[action + 1];
+    for (EffectId effect = begin; effect < end; ++effect) {
+        if (fires(effect, state)) {
+            for (const FactId fact : problem_.effect_deletes[effect]) {
+                clear_fact(next, fact);
+            }
+        }
+    }
+    for (EffectId effect = begin; effect < end; ++effect) {
+        if (fires(effect, state)) {
+            for (const FactId fact : problem_.effect_adds[effect]) {
+                set_fact(next, fact);
+            }
+        }
+    }
+}
+
+bool StateTransition::fires(EffectId effect, std::span<const std::uint64_t> state) const {
+    const auto is_true = [state](FactId fact) { return holds(state, fact); };
+    const auto needed = problem_.effect_conditions[effect];
+    const auto forbidden = problem_.effect_negative_conditions[effect];
+    return std::all_of(needed.begin(), needed.end(), is_true) && std::none_of(forbidden.begin(), forbidden.end(), is_true);
+}
+
+StateId StateRegistry::intern(std::span<const std::uint64_t> state) {
+    const std::uint64_t hash = hash_words(state);
+    const auto known = table_.find(hash, [&](StateId id) {
+        return std::equal(state.begin(), state.end(), (*this)[id].begin());
+    });
+    if (known) {
+        return *known;
+    }
+    const auto id = static_cast<StateId>(starts_.size());
+    const auto run = words_.allocate(word_count_);
+    std::copy(state.begin(), state.end(), run.begin());
+    starts_.push_back(run.data());
+    table_.add(hash, id, [this](StateId other) { return hash_words((*this)[other]); });
+    return id;
+}
+
+}  // namespace relax

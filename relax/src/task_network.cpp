@@ -1,0 +1,17 @@
+#include "relax/task_network.hpp"
+
+#include <utility>
+
+#include "relax/partially_ordered_networks.hpp"
+#include "relax/totally_ordered_networks.hpp"
+
+namespace relax {
+
+std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds) {
+    if (TotallyOrderedNetworks::fits(problem)) {
+        return std::make_unique<TotallyOrderedNetworks>(problem, std::move(task_bounds));
+    }
+    return std::make_unique<PartiallyOrderedNetworks>(problem, std::move(task_bounds));
+}
+
+}  // namespace relax

@@ -1,0 +1,100 @@
+#include "relax/totally_ordered_networks.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "relax/tdg_bound.hpp"
+
+namespace relax {
+
+namespace {
+
+std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_t{first} << 32) | rest); }
+
+}  // namespace
+
+TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds)
+    : problem_(problem), task_bounds_(std::move(task_bounds)) {
+    for (MethodId method = 0; method < problem.method_count(); ++method) {
+        const std::size_t count = problem.method_subtasks[method].size();
+        std::vector<std::uint32_t> before(count, 0);  // the order is transitively closed: this is the subtask's place
+        for (const auto& [earlier, later] : problem.method_ordering[method]) {
+            ++before[later];
+        }
+        std::vector<std::uint32_t> sequence(count);
+        for (std::uint32_t subtask = 0; subtask < count; ++subtask) {
+            sequence[before[subtask]] = subtask;
+        }
+        sequence_.add_row(sequence);
+    }
+    cells_.push_back({0, 0, kEmpty, 0});
+}
+
+bool TotallyOrderedNetworks::fits(const GroundProblem& problem) {
+    for (MethodId method = 0; method < problem.method_count(); ++method) {
+        const std::size_t count = problem.method_subtasks[method].size();
+        if (count > 1 && problem.method_ordering[method].size() != count * (count - 1) / 2) {
+            return false;
+        }
+    }
+    return true;
+}
+
+NetworkId TotallyOrderedNetworks::initial() { return intern(problem_.initial_task, kEmpty); }
+
+void TotallyOrderedNetworks::unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const {
+    if (network != kEmpty) {
+        occurrences.push_back({0, cells_[network].first});
+    }
+}
+
+void TotallyOrderedNetworks::tasks(NetworkId network, std::vector<TaskId>& tasks) const {
+    for (; network != kEmpty; network = cells_[network].rest) {
+        tasks.push_back(cells_[network].first);
+    }
+}
+
+NetworkId TotallyOrderedNetworks::progress(NetworkId network, std::uint32_t /*index*/, std::vector<Origin>* origins) {
+    const Cell& cell = cells_[network];
+    if (origins != nullptr) {
+        origins->clear();
+        for (std::uint32_t index = 1; index < cell.size; ++index) {
+            origins->push_back({false, index});
+        }
+    }
+    return cell.rest;
+}
+
+NetworkId TotallyOrderedNetworks::decompose(NetworkId network, std::uint32_t /*index*/, MethodId method,
+                                            std::vector<Origin>* origins) {
+    NetworkId result = cells_[network].rest;
+    const auto sequence = sequence_[method];
+    const auto subtasks = problem_.method_subtasks[method];
+    if (origins != nullptr) {
+        origins->clear();
+        for (const std::uint32_t subtask : sequence) {
+            origins->push_back({true, subtask});
+        }
+        for (std::uint32_t index = 1; index < cells_[network].size; ++index) {
+            origins->push_back({false, index});
+        }
+    }
+    for (std::size_t place = sequence.size(); place-- > 0;) {
+        result = intern(subtasks[sequence[place]], result);
+    }
+    return result;
+}
+
+NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
+    const std::uint64_t hash = hash_cell(first, rest);
+    const auto known = table_.find(hash, [&](NetworkId id) { return cells_[id].first == first && cells_[id].rest == rest; });
+    if (known) {
+        return *known;
+    }
+    const auto id = static_cast<NetworkId>(cells_.size());
+    cells_.push_back({add_bounds(cells_[rest].bound, task_bounds_[first]), first, rest, cells_[rest].size + 1});
+    table_.add(hash, id, [this](NetworkId other) { return hash_cell(cells_[other].first, cells_[other].rest); });
+    return id;
+}
+
+}  // namespace relax

@@ -1,0 +1,128 @@
+// A search without Python, for sanitizer builds: a hand-made problem, solved with every heuristic and algorithm.
+
+#include <cstdio>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "relax/find_plans.hpp"
+
+namespace {
+
+using Facts = std::vector<relax::FactId>;
+
+class Builder {
+public:
+    relax::ActionId action(const Facts& needs, const Facts& adds, const Facts& deletes) {
+        problem.preconditions.add_row(needs);
+        problem.negative_preconditions.finish_row();
+        if (problem.effect_begin.empty()) {
+            problem.effect_begin.push_back(0);
+        }
+        problem.effect_conditions.finish_row();
+        problem.effect_negative_conditions.finish_row();
+        problem.effect_adds.add_row(adds);
+        problem.effect_deletes.add_row(deletes);
+        problem.effect_begin.push_back(problem.effect_begin.back() + 1);
+        problem.action_schema.push_back(static_cast<std::uint32_t>(problem.action_schema.size()));
+        problem.action_arguments.finish_row();
+        problem.action_cost_parts.finish_row();
+        return static_cast<relax::ActionId>(problem.action_schema.size() - 1);
+    }
+
+    void facts(std::uint32_t count) {
+        for (std::uint32_t fact = 0; fact < count; ++fact) {
+            problem.fact_predicate.push_back(fact);
+            problem.fact_arguments.finish_row();
+        }
+    }
+
+    void method(relax::TaskId task, const std::vector<relax::TaskId>& subtasks, bool ordered) {
+        problem.method_task.push_back(task);
+        problem.method_schema.push_back(0);
+        problem.method_is_choice.push_back(false);
+        problem.method_arguments.finish_row();
+        problem.method_subtasks.add_row(subtasks);
+        for (std::uint32_t position = 0; position < subtasks.size(); ++position) {
+            problem.method_positions.push(position);
+            for (std::uint32_t later = position + 1; ordered && later < subtasks.size(); ++later) {
+                problem.method_ordering.push({position, later});
+            }
+        }
+        problem.method_positions.finish_row();
+        problem.method_ordering.finish_row();
+    }
+
+    void compounds(std::uint32_t count) {
+        for (std::uint32_t compound = 0; compound < count; ++compound) {
+            problem.compound_schema.push_back(compound);
+            problem.compound_arguments.finish_row();
+            for (relax::MethodId id = 0; id < problem.method_count(); ++id) {
+                if (problem.method_task[id] == problem.action_count() + compound) {
+                    problem.compound_methods.push(id);
+                }
+            }
+            problem.compound_methods.finish_row();
+        }
+    }
+
+    relax::GroundProblem problem;
+};
+
+// top -> A C nothing A (ordered or not); A -> make | make A; C -> use done; `use` needs and spends what `make` makes.
+relax::GroundProblem make_problem(bool ordered) {
+    Builder builder;
+    builder.facts(2);
+    const auto make = builder.action({}, {0}, {});
+    const auto use = builder.action({0}, {1}, {0});
+    const auto done = builder.action({1}, {}, {});
+    const relax::TaskId top = 3;
+    const relax::TaskId a = 4;
+    const relax::TaskId c = 5;
+    const relax::TaskId nothing = 6;
+    builder.method(top, {a, c, nothing, a}, ordered);
+    builder.method(a, {make}, true);
+    builder.method(a, {make, a}, true);
+    builder.method(nothing, {}, true);
+    builder.method(c, {use, done}, true);
+    builder.compounds(4);
+    builder.problem.initial_task = top;
+    return builder.problem;
+}
+
+bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm algorithm) {
+    const relax::GroundProblem problem = make_problem(ordered);
+    relax::SearchOptions options;
+    options.heuristic = heuristic;
+    options.algorithm = algorithm;
+    options.weight = 2.0;
+    relax::Limits limits;
+    relax::SearchStatistics statistics;
+    const relax::SearchResult result = relax::FindPlans(problem, {3, 5, 4}, options, limits, statistics).run();
+    const bool optimal = result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{15};
+    const bool solved = algorithm != relax::SearchAlgorithm::AStar && result.cost && *result.cost >= 15;
+    const bool good = (optimal || solved) && !result.plan.empty() && statistics.lower_bound.value_or(99) <= 15;
+    if (!good) {
+        std::printf("wrong: ordered %d, heuristic %d, algorithm %d\n", ordered, static_cast<int>(heuristic),
+                    static_cast<int>(algorithm));
+    }
+    return good;
+}
+
+}  // namespace
+
+int main() {
+    int passed = 0;
+    int failed = 0;
+    for (const bool ordered : {true, false}) {
+        for (const auto heuristic : {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg, relax::HeuristicKind::HMax,
+                                     relax::HeuristicKind::LmCut}) {
+            for (const auto algorithm : {relax::SearchAlgorithm::AStar, relax::SearchAlgorithm::Weighted,
+                                         relax::SearchAlgorithm::Greedy}) {
+                ++(solve(ordered, heuristic, algorithm) ? passed : failed);
+            }
+        }
+    }
+    std::printf("%d passed, %d failed\n", passed, failed);
+    return failed == 0 ? 0 : 1;
+}

@@ -1,0 +1,64 @@
+"""Optimal hierarchical (HTN) planning under risk: action costs are distributions, plans maximise expected utility.
+
+import statehtn
+
+problem = statehtn.read_hddl("domain.hddl", "p1.hddl")
+result = statehtn.plan(problem, attitude="averse", alpha=0.9)
+print(result)
+"""
+
+from __future__ import annotations
+
+from statehtn.core import HEURISTICS, SEARCHES, Progress
+from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
+from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
+from statehtn.hddl.plan_format import read_plan, write_plan
+from statehtn.model import CostDistribution, Decomposition, Plan, Problem, Step
+from statehtn.model.status import Status
+from statehtn.planner import SOLVERS, plan
+from statehtn.result import PricedStep, Result
+from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
+from statehtn.validate import Validation, validate
+
+__all__ = [
+    "HEURISTICS",
+    "SEARCHES",
+    "SOLVERS",
+    "Attitude",
+    "CostDistribution",
+    "Decomposition",
+    "Exponential",
+    "HddlWarning",
+    "InputError",
+    "Neutral",
+    "Place",
+    "Plan",
+    "PricedStep",
+    "Problem",
+    "Progress",
+    "Result",
+    "StateHtnError",
+    "Status",
+    "Step",
+    "UnsupportedError",
+    "UsageError",
+    "Utility",
+    "Validation",
+    "__version__",
+    "plan",
+    "read_hddl",
+    "read_hddl_text",
+    "read_plan",
+    "utility_for",
+    "validate",
+    "write_hddl",
+    "write_plan",
+]
+
+
+def __getattr__(name: str) -> str:
+    if name == "__version__":  # looked up when it is asked for: it takes as long as the rest of the import
+        from importlib.metadata import version
+
+        return version("statehtn")
+    raise AttributeError(f"module 'statehtn' has no attribute '{name}'")

@@ -1,0 +1,5 @@
+"""The command line: `statehtn plan` and `statehtn validate`."""
+
+from statehtn.cli.main import main
+
+__all__ = ["main"]

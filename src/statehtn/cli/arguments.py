@@ -1,0 +1,103 @@
+"""The options of the command line."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from typing import NoReturn
+
+from statehtn.core import HEURISTICS, SEARCHES
+from statehtn.errors import UsageError
+from statehtn.planner import DEFAULT_WEIGHT, SOLVERS
+from statehtn.risk import Attitude
+
+
+class _Parser(argparse.ArgumentParser):
+    """An argument parser that raises its errors instead of printing them."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raise a `UsageError` for a mistake on the command line."""
+        raise UsageError(f"{message} (see '{self.prog} --help')")
+
+
+class _ShowVersion(argparse.Action):
+    """Print the version; it is looked up only when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
+        import statehtn
+
+        print(f"statehtn {statehtn.__version__}")
+        parser.exit()
+
+
+def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
+    """Parse the command line.
+
+    Raises:
+        UsageError: the command line makes no sense.
+        SystemExit: help or the version was asked for and printed.
+    """
+    parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
+    parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate")
+    _add_plan(commands)
+    _add_validate(commands)
+    return parser.parse_args(arguments)
+
+
+def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "plan",
+        help="find the plan with the maximum expected utility",
+        description="Find the plan with the maximum expected utility for an agent's attitude to risk, and prove it.",
+        epilog="Heuristics: "
+        + "; ".join(f"{name}: {info.description}" for name, info in HEURISTICS.items())
+        + ". Exit codes: 0 plan found, 2 usage, 10 proven unsolvable, 12 search exhausted without proof, 20 time limit, "
+        "21 memory limit, 30 input error, 31 unsupported feature, 130 interrupted.",
+        allow_abbrev=False,
+    )
+    _add_inputs(parser)
+    agent = parser.add_argument_group("the agent")
+    agent.add_argument(
+        "--attitude", choices=[str(attitude) for attitude in Attitude], default="neutral", help="default: neutral"
+    )
+    agent.add_argument(
+        "--alpha",
+        type=float,
+        metavar="A",
+        help="how much an averse or a seeking agent cares: positive, per unit of cost",
+    )
+    search = parser.add_argument_group("the search")
+    search.add_argument("--solver", choices=list(SOLVERS), default="state", help="default: state")
+    search.add_argument("--heuristic", choices=list(HEURISTICS), default="lmcut", help="default: lmcut")
+    search.add_argument(
+        "--search", choices=list(SEARCHES), default="astar", help="default: astar, the one that proves optimality"
+    )
+    search.add_argument(
+        "--weight", type=float, metavar="W", help=f"of the weighted search, at least 1; default: {DEFAULT_WEIGHT:g}"
+    )
+    search.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
+    search.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    output = parser.add_argument_group("output")
+    output.add_argument("--output", metavar="FILE", help="write the plan with its decomposition (IPC 2020 format)")
+    form = output.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    form.add_argument("--quiet", action="store_true", help="print the plan's actions only, one per line")
+
+
+def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "validate",
+        help="check a plan and its decomposition",
+        description="Check a plan with its decomposition (IPC 2020 format) action by action, independently of the search.",
+        epilog="Exit codes: 0 valid, 1 invalid, 2 usage, 30 input error, 31 unsupported feature.",
+        allow_abbrev=False,
+    )
+    _add_inputs(parser)
+    parser.add_argument("plan", metavar="PLAN", help="plan file")
+
+
+def _add_inputs(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("domain", metavar="DOMAIN", help="HDDL file of the domain")
+    parser.add_argument("problem", metavar="PROBLEM", help="HDDL file of the problem")
+    parser.add_argument("--strict", action="store_true", help="treat warnings about the input as errors")

@@ -1,0 +1,53 @@
+"""A line on stderr that says how far the search has come, where stderr is a terminal."""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import sys
+import time
+from types import TracebackType
+
+from statehtn.core import Progress
+from statehtn.planner import ProgressCallback
+
+SECONDS_BETWEEN_LINES = 0.1
+CLEAR_LINE = "\r\x1b[K"
+
+
+class ProgressLine:
+    """One line that is written over and over, and removed in the end. `callback` is None where nobody would see it."""
+
+    def __init__(self, *, silent: bool = False) -> None:
+        self.visible = not silent and sys.stderr.isatty()
+        self.callback: ProgressCallback | None = self.show if self.visible else None
+        self.last = 0.0
+
+    def __enter__(self) -> ProgressLine:
+        self._write("reading and grounding ...")
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._write("")
+
+    def show(self, progress: Progress) -> None:
+        """Describe the search as it is now."""
+        now = time.monotonic()
+        if now - self.last < SECONDS_BETWEEN_LINES:
+            return
+        self.last = now
+        parts = [f"{progress.seconds:.1f} s", f"{progress.expanded:,} expanded", f"{progress.generated:,} generated"]
+        if progress.lower_bound is not None:
+            parts.append(f"no plan costs less than {progress.lower_bound:.6g}")
+        if progress.best is not None:
+            parts.append(f"best plan so far {progress.best:.6g}")
+        self._write(", ".join(parts))
+
+    def _write(self, text: str) -> None:
+        if self.visible:
+            width = shutil.get_terminal_size().columns
+            with contextlib.suppress(OSError):
+                sys.stderr.write(CLEAR_LINE + text[: max(1, width - 1)])
+                sys.stderr.flush()

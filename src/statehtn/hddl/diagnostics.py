@@ -1,0 +1,68 @@
+"""Warnings and errors of the reader."""
+
+from __future__ import annotations
+
+import difflib
+import warnings
+from collections.abc import Iterable
+
+from statehtn.errors import InputError, UnsupportedError
+from statehtn.hddl.expressions import Node
+from statehtn.hddl.tokens import Source, shortened
+
+
+class HddlWarning(UserWarning):
+    """A file is sloppy, but its meaning is clear; in strict mode this is an `InputError`."""
+
+
+class Diagnostics:
+    """Collects the warnings of one run of the reader, or raises them in strict mode."""
+
+    def __init__(self, strict: bool) -> None:
+        self.strict = strict
+        self.found: list[str] = []
+
+    def warn(self, message: str, source: Source, index: int) -> None:
+        """Note a warning about a token.
+
+        Raises:
+            InputError: in strict mode.
+        """
+        error = source.error(message, index)
+        if self.strict:
+            raise error
+        self.found.append(str(error))
+
+    def emit(self, stacklevel: int) -> None:
+        """Hand the warnings to Python, as if they came from the caller `stacklevel` frames up."""
+        for message in self.found:
+            warnings.warn(HddlWarning(message), stacklevel=stacklevel + 1)
+
+
+class Reporter:
+    """What a part of the reader says about one file."""
+
+    def __init__(self, source: Source, diagnostics: Diagnostics) -> None:
+        self.source = source
+        self.diagnostics = diagnostics
+
+    def error(self, message: str, at: Node) -> InputError:
+        """Return an error for the caller to raise."""
+        return self.source.error(message, at.index)
+
+    def unsupported(self, message: str, at: Node) -> UnsupportedError:
+        """Return the error for something that is HDDL, or PDDL, but not done here."""
+        return UnsupportedError(message, self.source.place(at.index))
+
+    def warn(self, message: str, at: Node) -> None:
+        """Note a warning; an error in strict mode."""
+        self.diagnostics.warn(message, self.source, at.index)
+
+
+def unknown(kind: str, name: str, known: Iterable[str]) -> str:
+    """Return the message that a name is not declared, with the most similar name that is."""
+    message = f"unknown {kind} '{shortened(name)}'"
+    if len(name) > 60:  # difflib takes quadratic time
+        return message
+    close = difflib.get_close_matches(name, known, n=1)
+    return f"{message}; did you mean '{close[0]}'?" if close else message

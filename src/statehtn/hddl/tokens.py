@@ -1,0 +1,180 @@
+"""From the bytes of a file to tokens: parentheses and lower-case words, with their places on demand.
+
+HDDL does not distinguish upper from lower case; everything is turned into lower case here, once. A token is known by its
+index; line and column are worked out only when an error or a warning asks for them, so that large files stay cheap.
+"""
+
+from __future__ import annotations
+
+import re
+from array import array
+from collections.abc import Iterator
+from itertools import islice
+from os import PathLike, fspath
+from pathlib import Path
+
+from statehtn.errors import InputError, Place
+from statehtn.limits import Limits
+
+MAX_NESTING = 200
+"""Open parentheses at one point of a file; formulas are read and evaluated recursively, so this must stay well below
+Python's recursion limit. Benchmarks need about ten."""
+
+CHUNK = 1 << 16
+_COMMENT = re.compile(r";[^\n]*")
+_TOKEN = re.compile(r"[()]|[^\s()]+")
+_BREAK = re.compile(r"[\s()]")
+_TOKEN_OR_COMMENT = re.compile(r"([()]|[^\s();]+)|;[^\n]*")
+
+
+class Source:
+    """The tokens of one file, and the sections that they form.
+
+    Args:
+        text: the whole text of the file.
+        file: the file's name in messages.
+        limits: checked every 64 kB.
+
+    Attributes:
+        tokens: parentheses and words, comments left out.
+        sections: for every group directly inside `(define ...)` the index of its `(` and the index after its `)`.
+
+    Raises:
+        InputError: the text is empty, is not one balanced `(define ...)`, or is nested too deeply.
+    """
+
+    __slots__ = ("_finder", "_offsets", "file", "sections", "text", "tokens")
+
+    def __init__(self, text: str, file: str, limits: Limits) -> None:
+        self.file = file
+        self.text = text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+        self.tokens: list[str] = []
+        self.sections: list[tuple[int, int]] = []
+        self._offsets = array("Q")
+        self._finder = (match.start() for match in _TOKEN_OR_COMMENT.finditer(self.text) if match.lastindex)
+        self._tokenise(limits)
+
+    def place(self, index: int) -> Place:
+        """Return where a token stands; an index past the last token means the end of the file."""
+        missing = index + 1 - len(self._offsets)
+        if missing > 0:
+            self._offsets.extend(islice(self._finder, missing))
+        offset = self._offsets[index] if index < len(self._offsets) else len(self.text)
+        line_start = self.text.rfind("\n", 0, offset) + 1
+        return Place(self.file, self.text.count("\n", 0, offset) + 1, offset - line_start + 1)
+
+    def error(self, message: str, index: int) -> InputError:
+        """Return an error about the token at an index."""
+        return InputError(message, self.place(index))
+
+    def _tokenise(self, limits: Limits) -> None:
+        depth = 0
+        tokens, sections = self.tokens, self.sections
+        start = 0
+        for chunk in self._chunks():
+            limits.check()
+            for index, token in enumerate(chunk, len(tokens)):
+                if token == "(":
+                    depth += 1
+                    if depth == 2:
+                        start = index
+                    elif depth == 1 and index:
+                        raise self._trailing(index)
+                    elif depth > MAX_NESTING:
+                        raise self.error(f"more than {MAX_NESTING} parentheses are open here; is one not closed?", index)
+                elif token == ")":
+                    depth -= 1
+                    if depth == 1:
+                        self._check_section(start, index)
+                        sections.append((start, index + 1))
+                    elif depth < 0:
+                        raise self._trailing(index) if index else self.error("expected '(define', found ')'", index)
+                elif depth < 2 and not (index == 1 and token == "define"):
+                    raise self._stray(token, index, depth)
+            tokens += chunk
+        if not tokens:
+            raise InputError("the file is empty; expected '(define (domain ...' or '(define (problem ...'", self.place(0))
+        if depth:
+            raise self._unclosed(depth)
+
+    def _chunks(self) -> Iterator[list[str]]:
+        """Yield the tokens piece by piece, equal words as the same object."""
+        text = (_COMMENT.sub("", self.text) if ";" in self.text else self.text).lower()
+        words: dict[str, str] = {}
+        start = 0
+        while start < len(text):
+            match = _BREAK.search(text, start + CHUNK)
+            end = match.start() if match else len(text)
+            chunk = _TOKEN.findall(text, start, end)
+            yield list(map(words.setdefault, chunk, chunk))
+            start = end
+
+    def _check_section(self, start: int, end: int) -> None:
+        """Refuse an empty section at once: a large file of parentheses ends here and not in memory."""
+        if start == 1:
+            raise self.error("expected 'define' after the first parenthesis, found '('", start)
+        if end == start + 1:
+            raise self.error("expected a section such as '(:action ...)', found '()'", start)
+
+    def _trailing(self, index: int) -> InputError:
+        return self.error("expected the end of the file, as '(define' is closed here; is there a ')' too many before?", index)
+
+    def _stray(self, token: str, index: int, depth: int) -> InputError:
+        if index == 0 or (index == 1 and depth == 1):
+            return self.error(f"expected '(define (domain ...' or '(define (problem ...', found '{shortened(token)}'", index)
+        if depth == 0:
+            return self._trailing(index)
+        return self.error(f"expected a section in parentheses, found '{shortened(token)}'", index)
+
+    def _unclosed(self, depth: int) -> InputError:
+        """Say which parenthesis is open; a section inside another one tells best where the mistake is."""
+        count = "one '(' is" if depth == 1 else f"{depth} '(' are"
+        opened: list[int] = []
+        for index, token in enumerate(self.tokens):
+            if token == "(":
+                if len(opened) > 1 and self._starts_section(index + 1):
+                    word = self.tokens[index + 1]
+                    return self.error(
+                        f"unbalanced parentheses: {count} never closed; '({word}' stands inside another section, so a ')' is "
+                        f"probably missing before it",
+                        index,
+                    )
+                opened.append(index)
+            elif token == ")":
+                opened.pop()
+        return self.error(f"unbalanced parentheses: {count} never closed, the last of them this one", opened[-1])
+
+    def _starts_section(self, index: int) -> bool:
+        return index < len(self.tokens) and self.tokens[index] in (":action", ":method", ":task", ":predicates", ":init")
+
+
+def read_text(path: str | PathLike[str]) -> str:
+    """Return the text of a file.
+
+    Raises:
+        InputError: the file cannot be read, is binary or is not UTF-8.
+    """
+    file = fspath(path)
+    try:
+        data = Path(file).read_bytes()
+    except OSError as error:
+        raise InputError(f"cannot read {file}: {(error.strerror or str(error)).lower()}") from None
+    except ValueError as error:  # a name with a NUL in it
+        raise InputError(f"cannot read {file!r}: {error}") from None
+    if (nul := data.find(b"\0")) >= 0:
+        raise InputError("the file is binary (a NUL byte), expected HDDL text", _place_of_byte(file, data, nul))
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        place = _place_of_byte(file, data, error.start)
+        raise InputError(f"the file is not UTF-8 text (byte 0x{data[error.start]:02x}), expected HDDL text", place) from None
+
+
+def shortened(word: str) -> str:
+    """Return a word for a message, cut where it is long."""
+    return word if len(word) <= 60 else f"{word[:60]}..."
+
+
+def _place_of_byte(file: str, data: bytes, offset: int) -> Place:
+    line_start = data.rfind(b"\n", 0, offset) + 1
+    return Place(file, data.count(b"\n", 0, offset) + 1, offset - line_start + 1)

@@ -1,0 +1,62 @@
+"""Limits that hold in every phase: reading, grounding and search."""
+
+from __future__ import annotations
+
+import os
+import time
+from dataclasses import dataclass
+
+from statehtn.errors import UsageError
+from statehtn.model.status import Status
+
+
+class LimitReached(Exception):
+    """A limit ended a phase before it had anything to show; the planner turns it into a result."""
+
+    def __init__(self, status: Status) -> None:
+        self.status = status
+        super().__init__(status.value)
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """A point in time and an amount of memory that a run must not pass; make one by `Limits.starting_now`.
+
+    Args:
+        deadline: seconds of `time.monotonic`, or None.
+        memory_mb: resident memory of the whole process, in units of 10^6 bytes, or None.
+    """
+
+    deadline: float | None = None
+    memory_mb: float | None = None
+
+    @staticmethod
+    def starting_now(time_limit: float | None = None, memory_limit: float | None = None) -> Limits:
+        """Start the clock: `time_limit` in seconds, `memory_limit` in MB; both positive, None for no limit.
+
+        Raises:
+            UsageError: a limit is not positive.
+        """
+        for name, value in (("time limit", time_limit), ("memory limit", memory_limit)):
+            if value is not None and not value > 0:
+                raise UsageError(f"the {name} must be a positive number, found {value:g}")
+        return Limits(None if time_limit is None else time.monotonic() + time_limit, memory_limit)
+
+    def check(self) -> None:
+        """Raise `LimitReached` if the time is over or the memory is used up.
+
+        Takes about a microsecond; call it every thousand units of work or so.
+        """
+        if self.deadline is not None and time.monotonic() >= self.deadline:
+            raise LimitReached(Status.TIME_LIMIT)
+        if self.memory_mb is not None and resident_mb() > self.memory_mb:
+            raise LimitReached(Status.MEMORY_LIMIT)
+
+
+def resident_mb() -> float:
+    """Return the process's resident memory in MB (10^6 bytes); where the system does not tell, 0."""
+    try:
+        with open("/proc/self/statm", "rb") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+    except OSError:
+        return 0.0

@@ -1,0 +1,203 @@
+"""The cost law of a ground action: what its cost blocks mean once parameters, state and function values are known.
+
+Everything is computed with exact fractions and turned into floating point once, at the end. Costs are positive, in the
+domain's unit.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+
+from statehtn.errors import InputError
+from statehtn.model.costs import (
+    PROBABILITY_TOLERANCE,
+    Arithmetic,
+    CostBlock,
+    CostDistribution,
+    Expression,
+    FunctionTerm,
+    FunctionValues,
+    Number,
+)
+from statehtn.model.formula import TRUE
+from statehtn.model.problem import Action
+
+ExactLaw = dict[Fraction, Fraction]
+"""A cost distribution in exact numbers: the probability of every cost; the probabilities sum to exactly 1."""
+
+
+class CostWarning(UserWarning):
+    """A cost is defined, but perhaps not as it was meant."""
+
+
+def evaluate(expression: Expression, bindings: Mapping[str, str], values: FunctionValues) -> Fraction:
+    """Return the exact value of a cost or probability expression.
+
+    Args:
+        expression: numbers, functions and sums, differences and products of them.
+        bindings: the object of every variable in the expression.
+        values: the function values of `:init`.
+
+    Raises:
+        InputError: `:init` does not define the value of a function that is needed.
+    """
+    match expression:
+        case Number(value):
+            return value
+        case FunctionTerm(function, arguments):
+            key = (function, *(bindings.get(term, term) for term in arguments))
+            if key not in values:
+                term = f"({' '.join(key)})"
+                raise InputError(f"the value of {term} is needed and not defined; add (= {term} <number>) to :init")
+            return values[key]
+        case Arithmetic("+", operands):
+            return sum((evaluate(operand, bindings, values) for operand in operands), Fraction(0))
+        case Arithmetic("*", operands):
+            return math.prod((evaluate(operand, bindings, values) for operand in operands), start=Fraction(1))
+        case Arithmetic("-", operands) if operands:
+            first, *rest = (evaluate(operand, bindings, values) for operand in operands)
+            return first - sum(rest, Fraction(0)) if rest else -first
+    raise InputError(f"a cost is a number, a function of the parameters, or + - * of them, found {expression}")
+
+
+def block_law(
+    block: CostBlock, action: Action, arguments: tuple[str, ...], objects: tuple[str, ...], values: FunctionValues
+) -> CostDistribution:
+    """Return the distribution of one cost block of a ground action, in a state where its condition holds.
+
+    Args:
+        block: one of `action.costs`.
+        action: the lifted action.
+        arguments: one object for each parameter of the action; an external cost is called with them.
+        objects: one object for each of the block's own parameters.
+        values: the function values of `:init`.
+
+    Raises:
+        InputError: a function value is missing, a cost or probability is negative, or the probabilities sum to more
+            than 1; the message names the ground action.
+    """
+    return _rounded(_exact_block(block, action, arguments, objects, values), action, arguments)
+
+
+def action_law(
+    action: Action,
+    arguments: tuple[str, ...],
+    active_parts: Iterable[tuple[int, tuple[str, ...]]],
+    values: FunctionValues,
+    unit_costs: bool,
+) -> CostDistribution:
+    """Return the distribution of a ground action's whole cost: the sum of its independent parts.
+
+    Args:
+        action: the lifted action.
+        arguments: one object for each parameter.
+        active_parts: the conditional parts that are due, as (index in `action.costs`, objects for that block's
+            parameters). Blocks without condition and parameters are always due and not listed.
+        values: the function values of `:init`.
+        unit_costs: the domain states no costs at all, so that every action costs 1.
+
+    Raises:
+        InputError: as `block_law`.
+    """
+    if unit_costs:
+        return CostDistribution.certain(1.0)
+    due: list[tuple[CostBlock, tuple[str, ...]]] = [(block, ()) for block in action.costs if is_unconditional(block)]
+    due += [(action.costs[index], objects) for index, objects in active_parts]
+    law: ExactLaw = {Fraction(0): Fraction(1)}
+    for block, objects in due:
+        law = _convolution(law, _exact_block(block, action, arguments, objects, values))
+    return _rounded(law, action, arguments)
+
+
+def is_unconditional(block: CostBlock) -> bool:
+    """Tell whether a block is due exactly once in every state."""
+    return block.condition == TRUE and not block.parameters
+
+
+def _exact_block(
+    block: CostBlock, action: Action, arguments: tuple[str, ...], objects: tuple[str, ...], values: FunctionValues
+) -> ExactLaw:
+    if block.external is not None:
+        return _external_law(block.external(*arguments), action, arguments)
+    bindings = {parameter.name: name for parameter, name in zip(action.parameters, arguments, strict=True)}
+    bindings.update((parameter.name, name) for parameter, name in zip(block.parameters, objects, strict=True))
+    law: ExactLaw = {}
+    for probability_expression, cost_expression in block.branches:
+        try:
+            probability = evaluate(probability_expression, bindings, values)
+            cost = evaluate(cost_expression, bindings, values) if probability else Fraction(0)
+        except InputError as error:
+            raise InputError(f"the cost of {_name(action, arguments)}: {error.message}", error.place) from None
+        _check("a probability", probability, action, arguments)
+        _check("a cost", cost, action, arguments)
+        if probability:
+            law[cost] = law.get(cost, Fraction(0)) + probability
+    return _completed(law, block, action, arguments)
+
+
+def _completed(law: ExactLaw, block: CostBlock, action: Action, arguments: tuple[str, ...]) -> ExactLaw:
+    """Let what is missing to probability 1 cost 0; what is off by rounding only is spread over all branches."""
+    total = sum(law.values(), Fraction(0))
+    if total > 1 + PROBABILITY_TOLERANCE:
+        raise InputError(
+            f"the probabilities of the cost of {_name(action, arguments)} sum to {float(total):.12g}, more than 1; "
+            f"the branches of one block must sum to 1"
+        )
+    if total < 1 - PROBABILITY_TOLERANCE:
+        law[Fraction(0)] = law.get(Fraction(0), Fraction(0)) + 1 - total
+        if not all(isinstance(probability, Number) for probability, _ in block.branches):  # the reader saw the others
+            # Names the lifted action only, so that Python shows it once and not for every ground action.
+            warnings.warn(
+                f"some probabilities of the cost of action '{action.name}' sum to less than 1; the rest costs 0",
+                CostWarning,
+                stacklevel=2,
+            )
+        return law
+    return law if total == 1 else {cost: probability / total for cost, probability in law.items()}
+
+
+def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) -> ExactLaw:
+    """Read what a callable returned. A float means the decimal that it prints as, so that equal costs stay equal."""
+    outcomes = answer.outcomes if isinstance(answer, CostDistribution) else ((1.0, answer),)
+    law: ExactLaw = {}
+    for probability, cost in outcomes:
+        if isinstance(cost, CostDistribution | str) or not hasattr(cost, "__float__"):
+            raise InputError(
+                f"the external cost of {_name(action, arguments)} must be a number or CostDistribution, found {cost!r}"
+            )
+        number = float(cost)
+        if not math.isfinite(number):
+            raise InputError(f"the external cost of {_name(action, arguments)} must be finite, found {number}")
+        exact = Fraction(repr(number))
+        _check("a cost", exact, action, arguments)
+        law[exact] = law.get(exact, Fraction(0)) + Fraction(repr(probability))
+    total = sum(law.values(), Fraction(0))
+    return law if total == 1 else {cost: probability / total for cost, probability in law.items()}
+
+
+def _convolution(left: ExactLaw, right: ExactLaw) -> ExactLaw:
+    law: ExactLaw = {}
+    for cost, probability in left.items():
+        for other_cost, other_probability in right.items():
+            total = cost + other_cost
+            law[total] = law.get(total, Fraction(0)) + probability * other_probability
+    return law
+
+
+def _rounded(law: ExactLaw, action: Action, arguments: tuple[str, ...]) -> CostDistribution:
+    try:
+        return CostDistribution.of((float(probability), float(cost)) for cost, probability in law.items())
+    except OverflowError:
+        raise InputError(f"the cost of {_name(action, arguments)} is too large for a floating-point number") from None
+
+
+def _check(what: str, value: Fraction, action: Action, arguments: tuple[str, ...]) -> None:
+    if value < 0:
+        raise InputError(f"the cost of {_name(action, arguments)}: {what} must not be negative, found {float(value):g}")
+
+
+def _name(action: Action, arguments: tuple[str, ...]) -> str:
+    return f"({' '.join((action.name, *arguments))})"

@@ -1,0 +1,223 @@
+"""The planner as a whole: read, ground, search, validate; every run ends in a `Result`, whatever ends it."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from statehtn.core import HEURISTICS, SEARCHES, Progress, find_plans, ground
+from statehtn.effort import Statistics, peak_memory_mb
+from statehtn.errors import InternalError, UsageError
+from statehtn.hddl import read_hddl
+from statehtn.limits import LimitReached, Limits
+from statehtn.model.plan import Plan
+from statehtn.model.problem import Problem
+from statehtn.model.status import Status
+from statehtn.result import PricedStep, Result
+from statehtn.risk import Attitude, Utility, problem_class, utility_for
+from statehtn.validate import validate
+
+SOLVERS: dict[str, str] = {"state": "A* progression search over states and task networks (paper Algorithm 4)"}
+DEFAULT_WEIGHT = 2.0
+ENDLESS_SECONDS = 1e9  # a longer time limit is none
+
+ProgressCallback = Callable[[Progress], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """What to optimise, and how; make one by `Query.of`, which checks it."""
+
+    utility: Utility
+    solver: str
+    heuristic: str
+    search: str
+    weight: float
+
+    @staticmethod
+    def of(
+        attitude: Attitude | str = Attitude.NEUTRAL,
+        alpha: float | None = None,
+        solver: str = "state",
+        heuristic: str = "lmcut",
+        search: str = "astar",
+        weight: float | None = None,
+    ) -> Query:
+        """Check the arguments, described at `plan`.
+
+        Raises:
+            UsageError: a name is unknown, or a number out of range.
+        """
+        utility = utility_for(attitude, alpha)
+        for kind, name, known in (
+            ("solver", solver, tuple(SOLVERS)),
+            ("heuristic", heuristic, tuple(HEURISTICS)),
+            ("search", search, tuple(SEARCHES)),
+        ):
+            if name not in known:
+                raise UsageError(f"unknown {kind} '{name}'; there are {', '.join(known)}")
+        if weight is not None and search != "weighted":
+            raise UsageError(f"a weight belongs to the weighted search, not to '{search}'")
+        if weight is not None and not (math.isfinite(weight) and weight >= 1):
+            raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
+        if search == "weighted":
+            weight = DEFAULT_WEIGHT if weight is None else weight
+        return Query(utility, solver, heuristic, search, 1.0 if weight is None else weight)
+
+
+def plan(
+    problem: Problem,
+    *,
+    attitude: Attitude | str = Attitude.NEUTRAL,
+    alpha: float | None = None,
+    solver: str = "state",
+    heuristic: str = "lmcut",
+    search: str = "astar",
+    weight: float | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    progress: ProgressCallback | None = None,
+) -> Result:
+    """Find the plan with the maximum expected utility, and prove that it is.
+
+    No plan, a limit that was reached and a Ctrl-C are values of the result's `status`, not exceptions.
+
+    Args:
+        problem: a problem, such as `read_hddl` returns.
+        attitude: neutral, averse or seeking.
+        alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
+        solver: a name from `SOLVERS`.
+        heuristic: a name from `HEURISTICS`.
+        search: `astar` returns an optimal plan, `weighted` one whose cost is proven to be within a bound, `greedy` any plan.
+        weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).
+        time_limit: seconds, for grounding and search together.
+        memory_limit: resident memory of the whole process in MB (10^6 bytes).
+        progress: is called some ten times a second during the search.
+
+    Raises:
+        UsageError: an argument is out of its range.
+        InputError: the cost of a reachable action is undefined, negative or no distribution.
+        UnsupportedError: the problem asks for something that the planner does not do.
+    """
+    query = Query.of(attitude, alpha, solver, heuristic, search, weight)
+    limits = _start_limits(time_limit, memory_limit)
+    return _solve(problem, query, limits, progress, Statistics())
+
+
+def plan_files(
+    domain: str | os.PathLike[str],
+    problem: str | os.PathLike[str],
+    query: Query,
+    *,
+    strict: bool = False,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    progress: ProgressCallback | None = None,
+) -> tuple[Result, Problem | None]:
+    """Read a problem from HDDL files and plan; the limits hold for the reading, too.
+
+    Returns the result, and the problem where it was read to its end. The other arguments and what it raises: see `plan`
+    and `read_hddl`.
+    """
+    limits = _start_limits(time_limit, memory_limit)
+    start = time.perf_counter()
+    try:
+        read = read_hddl(domain, problem, strict=strict, limits=limits)
+    except ENDINGS as ending:
+        statistics = Statistics(parse_seconds=time.perf_counter() - start)
+        return no_plan(query, status_of(ending), statistics), None
+    return _solve(read, query, limits, progress, Statistics(parse_seconds=time.perf_counter() - start)), read
+
+
+def no_plan(query: Query, status: Status, statistics: Statistics, bound: float | None = None) -> Result:
+    """Return the result of a run that found no plan."""
+    return Result(
+        status=status,
+        problem_class=str(problem_class(query.solver, query.utility)),
+        utility=query.utility,
+        solver=query.solver,
+        heuristic=query.heuristic,
+        bound=bound,
+        statistics=replace(statistics, peak_memory_mb=peak_memory_mb()),
+    )
+
+
+ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)
+"""Exceptions that end a phase before it has anything to show."""
+
+
+def status_of(ending: BaseException) -> Status:
+    """Return the status of a run that one of `ENDINGS` ended."""
+    match ending:
+        case LimitReached(status=status):
+            return status
+        case MemoryError():
+            return Status.MEMORY_LIMIT
+        case _:
+            return Status.INTERRUPTED
+
+
+def _start_limits(time_limit: float | None, memory_limit: float | None) -> Limits:
+    limits = Limits.starting_now(time_limit, memory_limit)
+    return replace(limits, deadline=None) if time_limit is not None and time_limit > ENDLESS_SECONDS else limits
+
+
+def _solve(
+    problem: Problem, query: Query, limits: Limits, progress: ProgressCallback | None, statistics: Statistics
+) -> Result:
+    """Ground, search and validate."""
+    start = time.perf_counter()
+    try:
+        grounding = ground(problem, limits)
+    except ENDINGS as ending:
+        return no_plan(query, status_of(ending), replace(statistics, ground_seconds=time.perf_counter() - start))
+    statistics = replace(
+        statistics,
+        facts=grounding.fact_count,
+        actions=grounding.action_count,
+        tasks=grounding.task_count,
+        methods=grounding.method_count,
+        ground_seconds=time.perf_counter() - start,
+    )
+    start = time.perf_counter()
+    try:
+        outcome = find_plans(
+            grounding,
+            query.utility,
+            heuristic=query.heuristic,
+            search=query.search,
+            weight=query.weight,
+            limits=limits,
+            progress=progress,
+        )
+    except ENDINGS as ending:
+        return no_plan(query, status_of(ending), replace(statistics, search_seconds=time.perf_counter() - start))
+    statistics = replace(
+        statistics,
+        expanded=outcome.expanded,
+        generated=outcome.generated,
+        evaluated=outcome.evaluated,
+        dead_ends=outcome.dead_ends,
+        search_seconds=time.perf_counter() - start,
+    )
+    result = no_plan(query, outcome.status, statistics, outcome.lower_bound)
+    return result if outcome.plan is None else _with_plan(result, problem, outcome.plan)
+
+
+def _with_plan(result: Result, problem: Problem, found: Plan) -> Result:
+    """Validate the plan independently of the search, and price its steps by the laws in the states they are executed in.
+
+    Raises:
+        InternalError: the plan is wrong.
+    """
+    validation = validate(problem, found)
+    if not validation.valid:
+        raise InternalError(f"the search returned a wrong plan: {'; '.join(validation.reasons)}")
+    steps = tuple(
+        PricedStep(step, law, law.mean, result.utility.risk_cost(law))
+        for step, law in zip(found.steps, validation.costs, strict=True)
+    )
+    return replace(result, plan=found, steps=steps)

@@ -1,0 +1,144 @@
+"""What a planning run returns: the plan with its price, what is proven about it, and the effort."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from statehtn.effort import Statistics
+from statehtn.model.costs import CostDistribution
+from statehtn.model.plan import Plan, Step
+from statehtn.model.status import Status
+from statehtn.risk import Utility
+
+
+@dataclass(frozen=True, slots=True)
+class PricedStep:
+    """An action of a plan and what it costs in the state in which it is executed.
+
+    Args:
+        step: the ground action.
+        law: the distribution of its cost.
+        expected_cost: the mean of the distribution, positive, in the domain's unit.
+        risk_cost: the certainty equivalent of the distribution for this agent, in the same unit.
+    """
+
+    step: Step
+    law: CostDistribution
+    expected_cost: float
+    risk_cost: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the entry of `plan` in the JSON object."""
+        return {
+            "action": self.step.action,
+            "arguments": list(self.step.arguments),
+            "expected_cost": self.expected_cost,
+            "risk_cost": self.risk_cost,
+            "outcomes": [list(outcome) for outcome in self.law.outcomes],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """The result of a planning run; what is not known is None.
+
+    Args:
+        status: how the run ended.
+        problem_class: the paper's RA-parameters of what was solved, such as `PS10110`.
+        utility: the agent's utility function.
+        solver: the name of the solver.
+        heuristic: the name of the heuristic.
+        plan: the best plan found, with its decomposition.
+        steps: the plan's actions with their costs; empty where there is no plan.
+        bound: a lower bound on the risk cost of every plan of the problem, in the domain's unit.
+        statistics: the effort.
+    """
+
+    status: Status
+    problem_class: str
+    utility: Utility
+    solver: str
+    heuristic: str
+    plan: Plan | None = None
+    steps: Sequence[PricedStep] = ()
+    bound: float | None = None
+    statistics: Statistics = field(default_factory=Statistics)
+
+    def __bool__(self) -> bool:
+        """Tell whether there is a plan."""
+        return self.plan is not None
+
+    @property
+    def attitude(self) -> str:
+        """The agent's attitude: neutral, averse or seeking."""
+        return str(self.utility.attitude)
+
+    @property
+    def alpha(self) -> float | None:
+        """The curving coefficient of the exponential utility, per unit of cost; None for neutral."""
+        return self.utility.alpha
+
+    @property
+    def length(self) -> int | None:
+        """The number of the plan's actions; those of the domain only."""
+        return None if self.plan is None else len(self.plan.steps)
+
+    @property
+    def expected_cost(self) -> float | None:
+        """The plan's expected cost, positive, in the domain's unit."""
+        return None if self.plan is None else math.fsum(step.expected_cost for step in self.steps)
+
+    @property
+    def risk_cost(self) -> float | None:
+        """The plan's certainty-equivalent cost for this agent, positive, in the domain's unit: what the search minimises."""
+        return None if self.plan is None else math.fsum(step.risk_cost for step in self.steps)
+
+    @property
+    def expected_utility(self) -> str | None:
+        """The plan's expected utility as a decimal number of any size."""
+        return None if self.risk_cost is None else self.utility.expected_utility_text(self.risk_cost)
+
+    @property
+    def log10_expected_utility(self) -> float | None:
+        """The paper's column: `log10 EU` for a seeking agent, `-log10 |EU|` for an averse one, None for a neutral one."""
+        return None if self.risk_cost is None else self.utility.log10_expected_utility(self.risk_cost)
+
+    @property
+    def lower_bound(self) -> float | None:
+        """No plan of the problem has a risk cost below this; at most the risk cost of the plan that was found."""
+        if self.bound is None or not math.isfinite(self.bound):
+            return None
+        return self.bound if self.risk_cost is None else min(self.bound, self.risk_cost)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the object that `statehtn plan --json` prints."""
+        return {
+            "status": self.status.value,
+            "problem_class": self.problem_class,
+            "solver": self.solver,
+            "heuristic": self.heuristic,
+            "attitude": self.attitude,
+            "alpha": self.alpha,
+            "plan": None if self.plan is None else [step.to_dict() for step in self.steps],
+            "length": self.length,
+            "expected_cost": self.expected_cost,
+            "risk_cost": self.risk_cost,
+            "expected_utility": self.expected_utility,
+            "log10_expected_utility": self.log10_expected_utility,
+            "lower_bound": self.lower_bound,
+            "statistics": asdict(self.statistics),
+        }
+
+    def __str__(self) -> str:
+        """Return the status, the actions and the plan's price in plain lines."""
+        lines = [f"status: {self.status}"]
+        lines += [f"  {index}. {priced.step}  cost {priced.law}" for index, priced in enumerate(self.steps, 1)]
+        if self.plan is not None:
+            lines.append(f"expected cost {self.expected_cost:.10g}, certainty equivalent {self.risk_cost:.10g}")
+            lines.append(f"expected utility {self.expected_utility} ({self.attitude})")
+        elif self.lower_bound is not None:
+            lines.append(f"every plan has a certainty-equivalent cost of at least {self.lower_bound:.10g}")
+        return "\n".join(lines)

@@ -1,0 +1,47 @@
+"""The expected utility of a plan: by segments, as the planner uses it, and by trajectories, as it is defined."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+
+from statehtn.model.costs import CostDistribution
+from statehtn.risk.neutral import Neutral
+from statehtn.risk.utility import DIGITS, Utility
+
+
+def plan_risk_cost(laws: Iterable[CostDistribution], utility: Utility) -> float:
+    """Return the certainty-equivalent cost of a plan: the sum of those of its actions, positive, in the domain's unit.
+
+    Source: the logarithm of the paper's equation 5 (Theorem 1), or its equation 7 for the neutral attitude.
+    """
+    return math.fsum(utility.risk_cost(law) for law in laws)
+
+
+def plan_expected_cost(laws: Iterable[CostDistribution]) -> float:
+    """Return the expected cost of a plan, positive, in the domain's unit."""
+    return plan_risk_cost(laws, Neutral())
+
+
+def expected_utility(laws: Iterable[CostDistribution], utility: Utility) -> float:
+    """Return the expected utility of a plan; infinite or 0 where a float cannot hold it."""
+    return utility.utility(plan_risk_cost(laws, utility))
+
+
+def expected_utility_text(laws: Iterable[CostDistribution], utility: Utility, digits: int = DIGITS) -> str:
+    """Return the expected utility of a plan as a decimal number of any size."""
+    return utility.expected_utility_text(plan_risk_cost(laws, utility), digits)
+
+
+def expected_utility_by_trajectories(laws: Sequence[CostDistribution], utility: Utility) -> float:
+    """Return the expected utility of a plan as the sum over all its trajectories; exponential in its length.
+
+    A trajectory is one outcome of every action. This is the definition (paper equation 4) and the oracle for the other
+    functions, for plans whose utility a float can hold.
+    """
+    return math.fsum(
+        math.prod(probability for probability, _ in trajectory)
+        * utility.utility(math.fsum(cost for _, cost in trajectory))
+        for trajectory in itertools.product(*(law.outcomes for law in laws))
+    )

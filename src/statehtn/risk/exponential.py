@@ -1,0 +1,137 @@
+"""The exponential utilities, risk-averse and risk-seeking, without overflow and with little lost to rounding.
+
+Costs `C` are positive, in the domain's unit, and minimised. With the paper's negative costs `c = -C` and `a` = -1
+(averse) or +1 (seeking), its equation 1 `a e^(a alpha c) / alpha` becomes `-e^(alpha C) / alpha` and
+`e^(-alpha C) / alpha`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Context, Decimal
+
+from statehtn.errors import UsageError
+from statehtn.model.costs import CostDistribution
+from statehtn.risk.neutral import Neutral
+from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
+
+LARGEST_EXPONENT = 700.0  # below it, exp and expm1 of a float do not overflow
+LEAST_CURVATURE = 1e-17  # a smaller alpha * (range of the cost) changes no digit of the mean
+DOUBLE_DIGITS = 15
+_MANY_DIGITS = Context(prec=60)
+
+
+@dataclass(frozen=True, slots=True)
+class Exponential:
+    """The exponential utility of an averse or a seeking agent; the larger alpha, the more it cares about risk.
+
+    Args:
+        attitude: averse or seeking.
+        alpha: the curving coefficient, positive, per unit of cost.
+
+    Raises:
+        UsageError: the attitude is neutral, or alpha is not a positive finite number.
+    """
+
+    attitude: Attitude
+    alpha: float
+
+    def __post_init__(self) -> None:
+        if self.attitude not in (Attitude.AVERSE, Attitude.SEEKING):
+            raise UsageError(f"an exponential utility is averse or seeking, found '{self.attitude}'")
+        if not (math.isfinite(self.alpha) and self.alpha > 0):
+            raise UsageError(f"alpha must be a positive finite number, found {self.alpha:g}")
+
+    @property
+    def function_type(self) -> FunctionType:
+        """The family of the function."""
+        return FunctionType.EXPONENTIAL
+
+    @property
+    def allows_segmentation(self) -> bool:
+        """True by the paper's Theorem 1."""
+        return True
+
+    @property
+    def plan_utility(self) -> PlanUtility:
+        """A product over the actions."""
+        return PlanUtility.PRODUCT
+
+    def risk_cost(self, law: CostDistribution) -> float:
+        """Return the certainty-equivalent cost.
+
+        It is `ln E[e^(alpha C)] / alpha` for an averse agent and `-ln E[e^(-alpha C)] / alpha` for a seeking one: at
+        least, or at most, the expected cost, to which it tends as alpha tends to 0.
+        """
+        least, largest = law.outcomes[0][1], law.outcomes[-1][1]
+        mean = Neutral().risk_cost(law)
+        curvature = self.alpha * (largest - least)
+        if curvature < LEAST_CURVATURE:
+            return mean
+        if not math.isfinite(curvature):
+            return largest if self.attitude == Attitude.AVERSE else least
+        sign = 1.0 if self.attitude == Attitude.AVERSE else -1.0
+        exponents = [sign * (self.alpha * (cost - least)) for _, cost in law.outcomes]
+        value = least + sign * _log_mean_exp([probability for probability, _ in law.outcomes], exponents) / self.alpha
+        # Rounding must not carry the value across its bounds.
+        return min(max(value, mean), largest) if sign > 0 else min(max(value, least), mean)
+
+    def utility(self, cost: float) -> float:
+        """Return the utility of a certain cost: averse `-e^(alpha C) / alpha`, seeking `e^(-alpha C) / alpha`."""
+        if self.attitude == Attitude.SEEKING:
+            return math.exp(-self.alpha * cost) / self.alpha
+        try:
+            return -math.exp(self.alpha * cost) / self.alpha
+        except OverflowError:
+            return -math.inf
+
+    def log10_expected_utility(self, risk_cost: float) -> float:
+        """Return `log10 EU` for a seeking and `-log10 |EU|` for an averse agent, as the paper prints it.
+
+        The size of EU is `e^(alpha K) / alpha` or `e^(-alpha K) / alpha`, where `K` is the plan's risk cost.
+        """
+        log10_slope = self.alpha * risk_cost / math.log(10)
+        log10_alpha = math.log10(self.alpha)
+        return log10_alpha - log10_slope if self.attitude == Attitude.AVERSE else -log10_alpha - log10_slope
+
+    def expected_utility_text(self, risk_cost: float, digits: int = DIGITS) -> str:
+        """Return the expected utility of a plan of that risk cost, such as `-42514703.23` or `2.607706e-49`.
+
+        Fewer than `digits` digits are printed where a rounding error in `risk_cost` already shows in them: EU is
+        exponential in it.
+        """
+        exponent = Decimal(self.alpha) * Decimal(risk_cost)
+        carried = DOUBLE_DIGITS - max(0, exponent.adjusted() + 1) if exponent else DOUBLE_DIGITS
+        averse = self.attitude == Attitude.AVERSE
+        log10_size = _MANY_DIGITS.subtract(
+            _MANY_DIGITS.divide(exponent if averse else -exponent, _MANY_DIGITS.ln(Decimal(10))),
+            _MANY_DIGITS.log10(Decimal(self.alpha)),
+        )
+        return ("-" if averse else "") + _power_of_ten(log10_size, max(1, min(digits, carried)))
+
+
+def _log_mean_exp(probabilities: list[float], exponents: list[float]) -> float:
+    """Return `ln(sum p e^x / sum p)` for exponents of one sign, one of them 0, without overflow or cancellation."""
+    total = math.fsum(probabilities)
+    if max(exponents) <= LARGEST_EXPONENT:
+        # All terms have one sign, so the sum is exact to rounding however small it is; so is log1p away from -1.
+        growth = math.fsum(p * math.expm1(x) for p, x in zip(probabilities, exponents, strict=True)) / total
+        if growth > -0.5:
+            return math.log1p(growth)
+    logs = [math.log(p) + x for p, x in zip(probabilities, exponents, strict=True)]
+    largest = max(logs)
+    return largest + math.log(math.fsum(math.exp(value - largest) for value in logs) / total)
+
+
+def _power_of_ten(log10: Decimal, digits: int) -> str:
+    """Print `10^log10` with so many significant digits, as `format(..., 'g')` does where a float can hold it."""
+    exponent = math.floor(log10)
+    mantissa = _MANY_DIGITS.power(Decimal(10), _MANY_DIGITS.subtract(log10, Decimal(exponent)))
+    if -300 < exponent < 300:
+        return format(float(f"{mantissa}e{exponent}"), f".{digits}g")
+    text = format(mantissa, f".{digits - 1}f")
+    if text.startswith("10"):  # rounded up
+        text, exponent = format(mantissa / 10, f".{digits - 1}f"), exponent + 1
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return f"{text}e{exponent:+03d}"

@@ -1,0 +1,59 @@
+"""The risk-neutral utility: an uncertain cost is worth its expected value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from statehtn.model.costs import CostDistribution
+from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
+
+
+@dataclass(frozen=True, slots=True)
+class Neutral:
+    """The linear utility `-cost` (paper equation 1, first case).
+
+    Costs are positive, in the domain's unit, and minimised.
+    """
+
+    @property
+    def attitude(self) -> Attitude:
+        """The risk attitude."""
+        return Attitude.NEUTRAL
+
+    @property
+    def alpha(self) -> None:
+        """No coefficient: a linear function has no curvature."""
+        return None
+
+    @property
+    def function_type(self) -> FunctionType:
+        """The family of the function."""
+        return FunctionType.LINEAR
+
+    @property
+    def allows_segmentation(self) -> bool:
+        """True: expected costs add up."""
+        return True
+
+    @property
+    def plan_utility(self) -> PlanUtility:
+        """A sum over the actions."""
+        return PlanUtility.SUM
+
+    def risk_cost(self, law: CostDistribution) -> float:
+        """Return the expected cost."""
+        least, largest = law.outcomes[0][1], law.outcomes[-1][1]
+        return min(
+            max(law.mean, least), largest
+        )  # rounding, or probabilities that sum to 1 + 1e-10, must not leave the range
+
+    def utility(self, cost: float) -> float:
+        """Return `-cost`."""
+        return -cost
+
+    def log10_expected_utility(self, risk_cost: float) -> None:
+        """Return None: the paper prints no logarithm for the neutral attitude."""
+
+    def expected_utility_text(self, risk_cost: float, digits: int = DIGITS) -> str:
+        """Return minus the expected cost as a decimal number."""
+        return format(0.0 - risk_cost, f".{digits}g")

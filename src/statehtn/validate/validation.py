@@ -1,0 +1,70 @@
+"""The judge of plans: whether a plan is executable, whether its decomposition is right, and what it costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from statehtn.model.costs import CostDistribution
+from statehtn.model.plan import Plan
+from statehtn.model.problem import Problem
+from statehtn.risk import Utility, plan_expected_cost, plan_risk_cost
+from statehtn.validate.decomposition import match_networks
+from statehtn.validate.execution import execute
+from statehtn.validate.ordering import check_ordering
+from statehtn.validate.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class Validation:
+    """What the validation of a plan found; true where the plan is valid.
+
+    Args:
+        reasons: what is wrong, each in one sentence; steps are counted from 1. Empty for a valid plan.
+        costs: the cost distribution of each step in the state it is executed in, up to the first step that cannot be
+            executed.
+    """
+
+    reasons: tuple[str, ...]
+    costs: tuple[CostDistribution, ...]
+
+    @property
+    def valid(self) -> bool:
+        """True if the plan solves the problem."""
+        return not self.reasons
+
+    def __bool__(self) -> bool:
+        return self.valid
+
+    @property
+    def expected_cost(self) -> float:
+        """The expected cost of the steps in `costs`: positive, in the domain's unit."""
+        return plan_expected_cost(self.costs)
+
+    def risk_cost(self, utility: Utility) -> float:
+        """Return the certainty-equivalent cost of the steps in `costs` to an agent: positive, in the domain's unit."""
+        return plan_risk_cost(self.costs, utility)
+
+
+def validate(problem: Problem, plan: Plan) -> Validation:
+    """Check a plan and its decomposition against the lifted problem, and recompute its costs.
+
+    The plan is valid if
+    - every step is an instance of an action and executable in the state that the steps before it lead to, and the goal
+      holds at the end;
+    - the decomposition derives exactly the plan's steps from the initial network: every compound task by a method for
+      it, under bindings of the right types that satisfy the method's constraints (bindings that the plan leaves open
+      are solved for);
+    - the order of the steps respects the ordering of every network, also across tasks that have no steps;
+    - every method precondition holds in some state after everything ordered before the method's task has ended and
+      before the method's first subtask starts, a parent's before its children's.
+
+    Raises:
+        InputError: the cost of a step is not defined (a value is missing in `:init`, say).
+    """
+    world = World(problem)
+    execution = execute(plan, world)
+    matching = match_networks(plan, world, execution.history)
+    reasons = [*execution.reasons, *matching.reasons]
+    if not matching.reasons:
+        reasons += check_ordering(plan, matching, world, execution.history)
+    return Validation(tuple(reasons), execution.costs)
