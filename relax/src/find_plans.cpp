@@ -47,7 +47,8 @@ SearchResult FindPlans::run() {
     Cost proven = 0;
     try {
         stop = search();
-        proven = open_bound();  // every plan that was not found goes through an open node
+        // Every plan that is wanted and was not found goes through an open node.
+        proven = std::min(open_bound(), options_.upper_bound.value_or(kDeadEnd));
     } catch (const std::bad_alloc&) {
         stop = StopReason::MemoryLimit;  // in the middle of an expansion: the open list is not complete
     }
@@ -73,25 +74,28 @@ SearchResult FindPlans::run() {
 // Search until the best plan is as good as the algorithm promises, or nothing is open. Says why it stopped before that.
 std::optional<StopReason> FindPlans::search() {
     const NodeId root = nodes_.add(progression_.initial_state(), progression_.initial_network());
+    if (!is_admissible(options_.heuristic)) {
+        guides_.push_back(0);
+    }
     push(root);
     while (!open_.is_empty()) {
         if (const auto stop = limits_.check()) {
             return stop;
         }
-        if (goal_ && (options_.algorithm == SearchAlgorithm::Greedy || open_.top().priority >= nodes_[*goal_].g)) {
+        if (goal_ && (options_.algorithm == SearchAlgorithm::Greedy || open_.top().priority >= *statistics_.best)) {
             return std::nullopt;
         }
         const OpenList::Entry entry = open_.pop();
         if (is_stale(entry)) {
             continue;
         }
-        if (options_.algorithm == SearchAlgorithm::AStar) {
+        if (options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic)) {
             statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
         }
         if (!evaluate(entry.node)) {
             continue;
         }
-        if (priority(nodes_[entry.node]) > entry.priority) {
+        if (priority(entry.node) > entry.priority) {
             push(entry.node);
             continue;
         }
@@ -102,8 +106,7 @@ std::optional<StopReason> FindPlans::search() {
 
 // The node has been expanded, or priced anew, since the entry was made.
 bool FindPlans::is_stale(const OpenList::Entry& entry) const {
-    const SearchNode& node = nodes_[entry.node];
-    return node.is_expanded || priority(node) != entry.priority;
+    return nodes_[entry.node].is_expanded || priority(entry.node) != entry.priority;
 }
 
 // Ask the heuristic, if it has not been asked about this pair of state and network. False if the node is a dead end.
@@ -123,8 +126,12 @@ bool FindPlans::evaluate(NodeId id) {
         node.h = kDeadEnd;
         return false;
     }
-    node.h = std::max(node.h, *h);
-    return true;
+    if (is_admissible(options_.heuristic)) {
+        node.h = std::max(node.h, *h);
+    } else {
+        guides_[id] = *h;
+    }
+    return !is_too_dear(node);
 }
 
 void FindPlans::expand(NodeId id) {
@@ -147,17 +154,20 @@ void FindPlans::generate(NodeId parent, const Successor& successor) {
         return;
     }
     const NodeId id = known ? *known : nodes_.add(successor.state, successor.network);
+    if (!known && !is_admissible(options_.heuristic)) {
+        guides_.push_back(guides_[parent]);
+    }
     SearchNode& node = nodes_[id];
     node.reach(parent, g, successor.step);
     if (progression_.networks().is_empty(node.network)) {
-        if (!goal_ || g < nodes_[*goal_].g || *goal_ == id) {
+        if (!is_too_dear(node)) {
             goal_ = id;
             statistics_.best = g;
         }
         return;
     }
     node.h = std::max(node.h, cheap_bound(nodes_[parent], successor));
-    if (node.h < kDeadEnd && !(goal_ && g + node.h >= nodes_[*goal_].g)) {
+    if (!is_too_dear(node)) {
         push(id);
     }
 }
@@ -173,23 +183,31 @@ Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor
     return bound;
 }
 
-Cost FindPlans::priority(const SearchNode& node) const {
+// No plan through this node is better than what is known.
+bool FindPlans::is_too_dear(const SearchNode& node) const {
+    const Cost f = add_bounds(node.g, node.h);
+    return f >= kDeadEnd || (options_.upper_bound && f >= *options_.upper_bound) || (statistics_.best && f >= *statistics_.best);
+}
+
+Cost FindPlans::priority(NodeId id) const {
+    const SearchNode& node = nodes_[id];
+    const Cost estimate = is_admissible(options_.heuristic) ? node.h : std::max(node.h, guides_[id]);
     switch (options_.algorithm) {
         case SearchAlgorithm::AStar:
-            return node.g + node.h;
+            return node.g + estimate;
         case SearchAlgorithm::Weighted: {
-            const double weighted = std::ceil(options_.weight * static_cast<double>(node.h));
+            const double weighted = std::ceil(options_.weight * static_cast<double>(estimate));
             return add_bounds(node.g, weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
         }
         case SearchAlgorithm::Greedy:
             break;
     }
-    return node.h;
+    return estimate;
 }
 
 void FindPlans::push(NodeId id) {
     const SearchNode& node = nodes_[id];
-    open_.push(id, priority(node), node.h, progression_.networks().size(node.network));
+    open_.push(id, priority(id), node.h, progression_.networks().size(node.network));
 }
 
 // The least cost that a plan through an open node can have.

@@ -3,6 +3,7 @@
 #include "relax/hmax.hpp"
 #include "relax/lm_cut.hpp"
 #include "relax/rc_heuristic.hpp"
+#include "relax/relaxed_plan.hpp"
 #include "relax/tdg_bound.hpp"
 
 namespace relax {
@@ -32,6 +33,18 @@ private:
     HMax hmax_;
 };
 
+class Additive : private RelaxedPlan {
+public:
+    using RelaxedPlan::RelaxedPlan;
+    std::optional<Cost> run(const RelaxedTask& task) { return add(task); }
+};
+
+class Ff : private RelaxedPlan {
+public:
+    using RelaxedPlan::RelaxedPlan;
+    std::optional<Cost> run(const RelaxedTask& task) { return ff(task); }
+};
+
 }  // namespace
 
 std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs) {
@@ -44,6 +57,10 @@ std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProble
             return std::make_unique<RcHeuristic<PricedHMax>>(problem, costs);
         case HeuristicKind::LmCut:
             return std::make_unique<RcHeuristic<LmCut>>(problem, costs);
+        case HeuristicKind::Add:
+            return std::make_unique<RcHeuristic<Additive>>(problem, costs);
+        case HeuristicKind::Ff:
+            return std::make_unique<RcHeuristic<Ff>>(problem, costs);
     }
     return nullptr;
 }

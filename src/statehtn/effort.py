@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Statistics:
-    """The effort of a run; None for phases that it did not reach. Times are in seconds, memory in units of 10^6 bytes."""
+    """The effort of a run; None for phases that it did not reach. Times are in seconds, memory in MB."""
 
     expanded: int | None = None
     generated: int | None = None
@@ -25,7 +25,7 @@ class Statistics:
 
 
 def peak_memory_mb() -> float | None:
-    """Return the highest resident memory of the process so far, in MB (10^6 bytes); None where the system does not tell."""
+    """Return the highest resident memory of the process so far in MB (10^6 bytes), or None where it is not known."""
     try:
         # Unlike getrusage, this does not count the process that started this one.
         with open("/proc/self/status", encoding="ascii", errors="replace") as file:

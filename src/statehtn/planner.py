@@ -8,7 +8,8 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from statehtn.core import HEURISTICS, SEARCHES, Progress, find_plans, ground
+from statehtn.core.grounding import ground
+from statehtn.core.search import HEURISTICS, SEARCHES, Progress, find_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import InternalError, UsageError
 from statehtn.hddl import read_hddl
@@ -91,7 +92,7 @@ def plan(
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
         heuristic: a name from `HEURISTICS`.
-        search: `astar` returns an optimal plan, `weighted` one whose cost is proven to be within a bound, `greedy` any plan.
+        search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan.
         weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).
         time_limit: seconds, for grounding and search together.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
@@ -208,7 +209,7 @@ def _solve(
 
 
 def _with_plan(result: Result, problem: Problem, found: Plan) -> Result:
-    """Validate the plan independently of the search, and price its steps by the laws in the states they are executed in.
+    """Validate the plan independently of the search, and price its steps in the states they are executed in.
 
     Raises:
         InternalError: the plan is wrong.

@@ -93,7 +93,7 @@ class Result:
 
     @property
     def risk_cost(self) -> float | None:
-        """The plan's certainty-equivalent cost for this agent, positive, in the domain's unit: what the search minimises."""
+        """The plan's certainty-equivalent cost, positive, in the domain's unit; the search minimises it."""
         return None if self.plan is None else math.fsum(step.risk_cost for step in self.steps)
 
     @property
@@ -103,7 +103,7 @@ class Result:
 
     @property
     def log10_expected_utility(self) -> float | None:
-        """The paper's column: `log10 EU` for a seeking agent, `-log10 |EU|` for an averse one, None for a neutral one."""
+        """The paper's column: `log10 EU` of a seeking agent, `-log10 |EU|` of an averse one, None of a neutral one."""
         return None if self.risk_cost is None else self.utility.log10_expected_utility(self.risk_cost)
 
     @property

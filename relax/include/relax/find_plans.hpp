@@ -15,6 +15,7 @@
 #include "relax/progression.hpp"
 #include "relax/search_node.hpp"
 #include "relax/search_result.hpp"
+#include "relax/segmented_array.hpp"
 
 namespace relax {
 
@@ -26,10 +27,12 @@ struct SearchOptions {
     double weight = 1.0;         // of h, for Weighted; at least 1
     bool use_tdg_bound = true;   // bound nodes by the decomposition graph before the heuristic is asked
     bool inherit_h = true;       // a node's h is at least its parent's less the cost of the step
+    std::optional<Cost> upper_bound;  // only plans that cost less are wanted
 };
 
 // FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower bound
-// until they are popped; then the heuristic is asked, and if f rises they are put back. A pair of state and network is kept once and
+// until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristic is asked, and if f
+// rises they are put back. A pair of state and network is kept once and
 // reopened when a cheaper way to it turns up.
 //
 // Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
@@ -49,7 +52,8 @@ private:
     void expand(NodeId id);
     void generate(NodeId parent, const Successor& successor);
     Cost cheap_bound(const SearchNode& parent, const Successor& successor);
-    Cost priority(const SearchNode& node) const;
+    Cost priority(NodeId id) const;
+    bool is_too_dear(const SearchNode& node) const;
     void push(NodeId id);
     Cost open_bound() const;
     void trace(NodeId goal, SearchResult& result);
@@ -62,6 +66,7 @@ private:
     Progression progression_;
     std::unique_ptr<Heuristic> heuristic_;
     DuplicateRegistry nodes_;
+    SegmentedArray<Cost> guides_;  // by NodeId: the estimate of a heuristic that is not admissible
     OpenList open_;
     std::optional<NodeId> goal_;  // of the best plan so far
     std::vector<Successor> successors_;

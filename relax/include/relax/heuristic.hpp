@@ -11,7 +11,10 @@
 
 namespace relax {
 
-enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut };
+enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut, Add, Ff };
+
+// An admissible heuristic never estimates more than is true.
+constexpr bool is_admissible(HeuristicKind kind) { return kind != HeuristicKind::Add && kind != HeuristicKind::Ff; }
 
 // What a heuristic sees of a search node.
 struct NodeView {
@@ -28,7 +31,7 @@ public:
     virtual std::optional<Cost> evaluate(const NodeView& node) = 0;
 };
 
-// `costs`: by ActionId. All kinds are admissible, and say dead end only where it is true.
+// `costs`: by ActionId. All kinds say dead end only where it is true.
 std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs);
 
 }  // namespace relax

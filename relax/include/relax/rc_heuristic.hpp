@@ -6,7 +6,7 @@
 
 namespace relax {
 
-// computeRCAdHeur (the paper's Algorithm 5): an admissible classical heuristic on the relaxed model, in which methods are free
+// computeRCAdHeur (the paper's Algorithm 5): a classical heuristic on the relaxed model, in which methods are free
 // and actions cost what they are worth to the agent. The model is built once; a node only selects its part of it.
 template <typename ClassicalHeuristic>
 class RcHeuristic final : public Heuristic {

@@ -1,5 +1,5 @@
 """The command line: `statehtn plan` and `statehtn validate`."""
 
-from statehtn.cli.main import main
+from statehtn.cli.program import main
 
 __all__ = ["main"]

@@ -6,10 +6,18 @@ import argparse
 from collections.abc import Sequence
 from typing import NoReturn
 
-from statehtn.core import HEURISTICS, SEARCHES
+from statehtn.core.search import HEURISTICS, SEARCHES
 from statehtn.errors import UsageError
 from statehtn.planner import DEFAULT_WEIGHT, SOLVERS
 from statehtn.risk import Attitude
+
+PLAN_EPILOG = """heuristics:
+{}
+
+exit codes:
+  0 plan found    10 proven unsolvable    20 time limit      30 input error             130 interrupted
+  2 usage         12 search exhausted     21 memory limit    31 unsupported feature
+"""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -50,10 +58,8 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         "plan",
         help="find the plan with the maximum expected utility",
         description="Find the plan with the maximum expected utility for an agent's attitude to risk, and prove it.",
-        epilog="Heuristics: "
-        + "; ".join(f"{name}: {info.description}" for name, info in HEURISTICS.items())
-        + ". Exit codes: 0 plan found, 2 usage, 10 proven unsolvable, 12 search exhausted without proof, 20 time limit, "
-        "21 memory limit, 30 input error, 31 unsupported feature, 130 interrupted.",
+        epilog=PLAN_EPILOG.format("\n".join(f"  {name:8}{info.description}" for name, info in HEURISTICS.items())),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     _add_inputs(parser)
@@ -65,7 +71,7 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         "--alpha",
         type=float,
         metavar="A",
-        help="how much an averse or a seeking agent cares: positive, per unit of cost",
+        help="how much such an agent cares, per unit of cost",
     )
     search = parser.add_argument_group("the search")
     search.add_argument("--solver", choices=list(SOLVERS), default="state", help="default: state")
@@ -89,7 +95,7 @@ def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser = commands.add_parser(
         "validate",
         help="check a plan and its decomposition",
-        description="Check a plan with its decomposition (IPC 2020 format) action by action, independently of the search.",
+        description="Check a plan with its decomposition (IPC 2020 format), independently of the search.",
         epilog="Exit codes: 0 valid, 1 invalid, 2 usage, 30 input error, 31 unsupported feature.",
         allow_abbrev=False,
     )

@@ -8,7 +8,7 @@ import sys
 import time
 from types import TracebackType
 
-from statehtn.core import Progress
+from statehtn.core.search import Progress
 from statehtn.planner import ProgressCallback
 
 SECONDS_BETWEEN_LINES = 0.1

@@ -1,8 +1,9 @@
-"""The readable output: tables that fit a terminal, and lose neither words nor alignment in a pipe or without colours."""
+"""The readable output: tables that fit a terminal, and stay readable in a pipe and without colours."""
 
 from __future__ import annotations
 
 import io
+import shutil
 import sys
 from collections.abc import Iterable, Sequence
 
@@ -48,14 +49,11 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
     """Return the verdict on a plan, action by action; `costs` has a law for each step that can be executed."""
     table = _table(("", "right"), ("action", "left"), ("", "left"), ("cost", "left"), ("expected", "right"))
     for index, step in enumerate(steps):
-        law = validation.costs[index] if index < len(validation.costs) else None
-        table.add_row(
-            str(index + 1),
-            str(step),
-            "" if law is None else "ok",
-            "" if law is None else str(law),
-            "" if law is None else number(law.mean),
-        )
+        if index < len(validation.costs):
+            law = validation.costs[index]
+            table.add_row(str(index + 1), str(step), "executed", str(law), number(law.mean))
+        else:
+            table.add_row(str(index + 1), str(step), "not reached" if index > len(validation.costs) else "fails", "", "")
     rows = [("verdict", "valid")] if validation.valid else [("verdict", "invalid")]
     rows += [("because", reason) for reason in validation.reasons]
     if validation.valid:
@@ -92,13 +90,10 @@ def _range(laws: Sequence[CostDistribution]) -> str:
 
 def _summary_rows(result: Result) -> list[tuple[str, str]]:
     found = result.plan is not None
-    ending = ENDINGS[result.status]
-    if found and result.status not in (Status.OPTIMAL, Status.SOLVED):
-        ending = f"{result.status}, but a plan was found; there may be a better one"
-    rows = [("status", ending)]
+    rows = [("status", ENDINGS[result.status])]
     if found:
         rows.append(("expected cost", number(result.expected_cost)))
-        rows.append(("certainty equivalent", f"{number(result.risk_cost)} (a certain cost as bad for this agent)"))
+        rows.append(("certainty equivalent", f"{number(result.risk_cost)} (this agent would as soon pay that for certain)"))
         rows.append(("expected utility", result.expected_utility or ""))
     if result.log10_expected_utility is not None:
         label = "-log10 |EU|" if result.attitude == "averse" else "log10 EU"
@@ -125,20 +120,11 @@ def _effort_rows(result: Result) -> list[tuple[str, str]]:
     effort = result.statistics
     rows = []
     if effort.facts is not None:
-        rows.append(
-            (
-                "grounded",
-                f"{effort.facts} facts, {effort.actions} actions, {effort.tasks} tasks, {effort.methods} methods",
-            )
-        )
+        sizes = f"{effort.facts} facts, {effort.actions} actions, {effort.tasks} tasks, {effort.methods} methods"
+        rows.append(("grounded", sizes))
     if effort.expanded is not None:
-        rows.append(
-            (
-                "searched",
-                f"{effort.expanded} nodes expanded, {effort.generated} generated, {effort.evaluated} evaluated, "
-                f"{effort.dead_ends} dead ends",
-            )
-        )
+        nodes = f"{effort.expanded} nodes expanded, {effort.generated} generated, {effort.evaluated} evaluated"
+        rows.append(("searched", f"{nodes}, {effort.dead_ends} dead ends"))
     phases = (
         ("reading", effort.parse_seconds),
         ("grounding", effort.ground_seconds),
@@ -168,12 +154,11 @@ def _summary(rows: Iterable[tuple[str, str]], first_style: str) -> Table:
 def _render(tables: Iterable[Table]) -> str:
     """Render for standard output: coloured and wrapped on a terminal, plain and of any width elsewhere."""
     terminal = sys.stdout.isatty()
-    target = Console(markup=False, highlight=False, emoji=False)
     console = Console(
         file=io.StringIO(),
         force_terminal=terminal,
-        color_system=target.color_system if terminal else None,
-        width=target.width if terminal else PIPE_WIDTH,
+        color_system="auto" if terminal else None,
+        width=shutil.get_terminal_size().columns if terminal else PIPE_WIDTH,
         markup=False,
         highlight=False,
         emoji=False,
@@ -181,4 +166,4 @@ def _render(tables: Iterable[Table]) -> str:
     with console.capture() as capture:
         for table in tables:
             console.print(table)
-    return "\n".join(line.rstrip() for line in capture.get().strip("\n").splitlines())
+    return "\n".join(line.rstrip() for line in capture.get().splitlines()).strip("\n")

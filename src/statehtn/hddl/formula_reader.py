@@ -40,7 +40,9 @@ class FormulaReader:
         if not node.items:
             return TRUE
         if not node.head:
-            raise self.reporter.error(f"expected a predicate or a word such as 'and', found {describe(node.items[0])}", node)
+            raise self.reporter.error(
+                f"expected a predicate or a word such as 'and', found {describe(node.items[0])}", node
+            )
         reader = _READERS.get(node.head)
         if reader is not None:
             return reader(self, node, scope)
@@ -76,7 +78,9 @@ class FormulaReader:
         left, right = self._operands(node, 2)
         if isinstance(left, Group) or isinstance(right, Group):
             raise self.reporter.unsupported("comparing the values of functions is not supported", node)
-        return Equals(self.vocabulary.term(left, scope, self.reporter), self.vocabulary.term(right, scope, self.reporter))
+        return Equals(
+            self.vocabulary.term(left, scope, self.reporter), self.vocabulary.term(right, scope, self.reporter)
+        )
 
     def _atom(self, node: Group, scope: Scope) -> Formula:
         signature = self.vocabulary.predicates.get(node.head)
@@ -88,14 +92,16 @@ class FormulaReader:
         if node.head in NUMERIC:
             raise self.reporter.unsupported("comparing numbers in a condition is not supported", node)
         if node.head in TEMPORAL:
-            raise self.reporter.unsupported(f"preferences and trajectory constraints ('{node.head}') are not supported", node)
+            raise self.reporter.unsupported(
+                f"preferences and trajectory constraints ('{node.head}') are not supported", node
+            )
         raise self.reporter.error(unknown("predicate", node.head, self.vocabulary.predicates), node.items[0])
 
     def _sort_constraint(self, node: Group, scope: Scope) -> Formula:
         """Read `(sortof ?x - t)`."""
         if node.head not in ("sort", "sortof"):
             raise self.reporter.error(
-                f"expected a constraint '(= ...)', '(not ...)', '(and ...)', '(or ...)' or '(sortof ...)', found {describe(node)}",
+                f"expected a constraint ('=', 'sortof', 'not', 'and', 'or'), found {describe(node)}",
                 node,
             )
         term, dash, types = self._operands(node, 3, "(sortof ?x - <type>)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from statehtn.hddl.cycles import find_cycle
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.formula_reader import FormulaReader
@@ -31,7 +32,10 @@ def read_network(fields: Fields, scope: Scope, vocabulary: Vocabulary, reporter:
     order = fields.get(*ORDERING)
     if order is not None:
         ordering |= dict.fromkeys(_pairs(order, subtasks, reporter))
-        if cycle := _cycle(len(subtasks), ordering):
+        after: dict[int, list[int]] = {}
+        for i, j in ordering:
+            after.setdefault(i, []).append(j)
+        if cycle := find_cycle(after):
             labels = " < ".join(subtasks[i].label for i in cycle)
             raise reporter.error(f"the ordering of the subtasks is cyclic: {labels}", order)
     constraints = fields.get(":constraints")
@@ -59,7 +63,8 @@ def _subtasks(nodes: list[Node], scope: Scope, vocabulary: Vocabulary, reporter:
             labels.add(label.text)
     fresh = (name for name in map("task{}".format, range(len(parts) + len(labels))) if name not in labels)
     return tuple(
-        _subtask(next(fresh) if label is None else label.text, task, scope, vocabulary, reporter) for label, task in parts
+        _subtask(next(fresh) if label is None else label.text, task, scope, vocabulary, reporter)
+        for label, task in parts
     )
 
 
@@ -82,7 +87,7 @@ def _subtask(label: str, node: Group, scope: Scope, vocabulary: Vocabulary, repo
     signature = vocabulary.tasks.get(node.head) or vocabulary.actions.get(node.head)
     if signature is None:
         if not node.head:
-            raise reporter.error("expected a task, found '()'" if not node.items else "expected the name of a task", node)
+            raise reporter.error(f"expected '(<task> <arguments>)', found {describe(node)}", node)
         raise reporter.error(unknown("task", node.head, (*vocabulary.tasks, *vocabulary.actions)), node.items[0])
     kind = "task" if node.head in vocabulary.tasks else "action"
     return Subtask(label, node.head, vocabulary.terms(kind, signature, node, node.items[1:], scope, reporter))
@@ -109,27 +114,3 @@ def _index(label: Node, index_of: dict[str, int], reporter: Reporter) -> int:
     if label.text not in index_of:
         raise reporter.error(unknown("label", label.text, index_of), label)
     return index_of[label.text]
-
-
-def _cycle(size: int, ordering: dict[tuple[int, int], None]) -> list[int]:
-    """Return subtasks that each come before the next, the last one being the first; empty where there is no cycle."""
-    after: list[list[int]] = [[] for _ in range(size)]
-    waiting = [0] * size
-    for i, j in ordering:
-        after[i].append(j)
-        waiting[j] += 1
-    free = [i for i in range(size) if not waiting[i]]
-    while free:
-        for j in after[free.pop()]:
-            waiting[j] -= 1
-            if not waiting[j]:
-                free.append(j)
-    stuck = {i for i in range(size) if waiting[i]}
-    if not stuck:
-        return []
-    before = {j: i for i, j in ordering if i in stuck and j in stuck}
-    way = [min(stuck)]
-    while before[way[-1]] not in way:  # everything that is stuck waits for something that is stuck
-        way.append(before[way[-1]])
-    first = before[way[-1]]
-    return [first, *reversed(way[way.index(first) :])]

@@ -51,10 +51,10 @@ def write_plan(plan: Plan, problem: Problem) -> str:
 def read_plan(text: str, problem: Problem, file: str = "<plan>") -> Plan:
     """Read a plan in the IPC 2020 format, as any planner prints it.
 
-    Blank lines, text before `==>` and after `<==`, and brackets around arguments do not matter; nor does the case of
-    letters, the order of the decompositions, or that of the subtasks: they are matched with the method's subtasks by
-    their names, arguments and order. Names that the problem does not have are left for the validator to report. The
-    bindings of methods are not part of the format (None in the result).
+    Blank lines, text before `==>` and after `<==` (which may be missing), and brackets around arguments do not matter;
+    nor does the case of letters, the order of the decompositions, or that of the subtasks: they are matched with the
+    method's subtasks by their names, arguments and order. Names that the problem does not have are left for the
+    validator to report. The bindings of methods are not part of the format (None in the result).
 
     Args:
         text: the output of a planner.
@@ -146,6 +146,7 @@ def _read_lines(text: str, spelling: _Spelling, file: str) -> _Lines:
     """Take the lines between `==>` and `<==` apart."""
     lines = _Lines(file)
     inside = False
+    place = Place(file, 1, 1)
     for number, line in enumerate(text.splitlines(), start=1):
         words = line.translate(_NO_BRACKETS).split()
         if not words:
@@ -154,19 +155,21 @@ def _read_lines(text: str, spelling: _Spelling, file: str) -> _Lines:
         if not inside:
             inside = words[0] == "==>"
         elif words[0] == "<==":
-            if lines.roots is None:
-                raise InputError("expected a line 'root ...' before '<=='", place)
-            return lines
+            break
         elif words[0].lower() == "root":
             if lines.roots is not None:
                 raise InputError("a second line 'root'; expected one", place)
             lines.roots, lines.root_place = [_number(word, place) for word in words[1:]], place
         else:
             _read_task(words, lines, spelling, place)
-    raise InputError(
-        "the plan is cut off: expected '<==' at its end" if inside else "there is no plan: expected a line '==>'",
-        Place(file, len(text.splitlines()) + 1, 1),
-    )
+    if lines.roots is None:
+        missing = (
+            "the plan has no decomposition: expected a line 'root ...'"
+            if inside
+            else "there is no plan: expected a line '==>'"
+        )
+        raise InputError(missing, place)
+    return lines
 
 
 def _read_task(words: list[str], lines: _Lines, spelling: _Spelling, place: Place) -> None:

@@ -1,7 +1,7 @@
 """From the bytes of a file to tokens: parentheses and lower-case words, with their places on demand.
 
-HDDL does not distinguish upper from lower case; everything is turned into lower case here, once. A token is known by its
-index; line and column are worked out only when an error or a warning asks for them, so that large files stay cheap.
+HDDL does not distinguish upper from lower case; everything is turned into lower case here, once. A token is known by
+its index; line and column are worked out only when an error or a warning asks for them, so that large files stay cheap.
 """
 
 from __future__ import annotations
@@ -19,6 +19,9 @@ from statehtn.limits import Limits
 MAX_NESTING = 200
 """Open parentheses at one point of a file; formulas are read and evaluated recursively, so this must stay well below
 Python's recursion limit. Benchmarks need about ten."""
+
+MAX_SECTION = 2_000_000
+"""Tokens in one section other than `:init`, which is read without building nested lists."""
 
 CHUNK = 1 << 16
 _COMMENT = re.compile(r";[^\n]*")
@@ -81,7 +84,9 @@ class Source:
                     elif depth == 1 and index:
                         raise self._trailing(index)
                     elif depth > MAX_NESTING:
-                        raise self.error(f"more than {MAX_NESTING} parentheses are open here; is one not closed?", index)
+                        raise self.error(
+                            f"more than {MAX_NESTING} parentheses are open here; is one not closed?", index
+                        )
                 elif token == ")":
                     depth -= 1
                     if depth == 1:
@@ -92,8 +97,12 @@ class Source:
                 elif depth < 2 and not (index == 1 and token == "define"):
                     raise self._stray(token, index, depth)
             tokens += chunk
+            if depth > 1 and len(tokens) - start > MAX_SECTION and tokens[start + 1] != ":init":
+                raise self.error(f"this section has more than {MAX_SECTION} words; is a ')' missing?", start)
         if not tokens:
-            raise InputError("the file is empty; expected '(define (domain ...' or '(define (problem ...'", self.place(0))
+            raise InputError(
+                "the file is empty; expected '(define (domain ...' or '(define (problem ...'", self.place(0)
+            )
         if depth:
             raise self._unclosed(depth)
 
@@ -117,11 +126,15 @@ class Source:
             raise self.error("expected a section such as '(:action ...)', found '()'", start)
 
     def _trailing(self, index: int) -> InputError:
-        return self.error("expected the end of the file, as '(define' is closed here; is there a ')' too many before?", index)
+        return self.error(
+            "expected the end of the file, as '(define' was closed before; is there a ')' too many?", index
+        )
 
     def _stray(self, token: str, index: int, depth: int) -> InputError:
         if index == 0 or (index == 1 and depth == 1):
-            return self.error(f"expected '(define (domain ...' or '(define (problem ...', found '{shortened(token)}'", index)
+            return self.error(
+                f"expected '(define (domain ...' or '(define (problem ...', found '{shortened(token)}'", index
+            )
         if depth == 0:
             return self._trailing(index)
         return self.error(f"expected a section in parentheses, found '{shortened(token)}'", index)
@@ -135,8 +148,8 @@ class Source:
                 if len(opened) > 1 and self._starts_section(index + 1):
                     word = self.tokens[index + 1]
                     return self.error(
-                        f"unbalanced parentheses: {count} never closed; '({word}' stands inside another section, so a ')' is "
-                        f"probably missing before it",
+                        f"unbalanced parentheses: {count} never closed; '({word}' stands inside another section, "
+                        f"so a ')' is probably missing before it",
                         index,
                     )
                 opened.append(index)
@@ -145,7 +158,13 @@ class Source:
         return self.error(f"unbalanced parentheses: {count} never closed, the last of them this one", opened[-1])
 
     def _starts_section(self, index: int) -> bool:
-        return index < len(self.tokens) and self.tokens[index] in (":action", ":method", ":task", ":predicates", ":init")
+        return index < len(self.tokens) and self.tokens[index] in (
+            ":action",
+            ":method",
+            ":task",
+            ":predicates",
+            ":init",
+        )
 
 
 def read_text(path: str | PathLike[str]) -> str:
@@ -167,7 +186,9 @@ def read_text(path: str | PathLike[str]) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         place = _place_of_byte(file, data, error.start)
-        raise InputError(f"the file is not UTF-8 text (byte 0x{data[error.start]:02x}), expected HDDL text", place) from None
+        raise InputError(
+            f"the file is not UTF-8 text (byte 0x{data[error.start]:02x}), expected HDDL text", place
+        ) from None
 
 
 def shortened(word: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from statehtn.hddl.cycles import find_cycle
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.vocabulary import Types, Vocabulary, new_name, words
@@ -63,31 +64,13 @@ def read_types(nodes: Sequence[Node], parents: dict[str, Types], reporter: Repor
         for kind in above:
             if kind != ROOT_TYPE:
                 parents.setdefault(kind, ())
-    for word, _ in typed_list(nodes, reporter):
-        if cycle := _cycle(word.text, parents):
-            raise reporter.error(f"the types are in a cycle: {' - '.join(cycle)}", word)
-
-
-def _cycle(name: str, parents: dict[str, Types]) -> list[str]:
-    """Return a way from a type up to itself; empty where there is none."""
-    came_from = {above: name for above in parents.get(name, ())}
-    pending = list(came_from)
-    while pending:
-        kind = pending.pop()
-        if kind == name:
-            way = [name]
-            while came_from[way[-1]] != name:
-                way.append(came_from[way[-1]])
-            return [*reversed([*way, name])]
-        for above in parents.get(kind, ()):
-            if above not in came_from:
-                came_from[above] = kind
-                pending.append(above)
-    return []
+    if cycle := find_cycle(parents):
+        word = next(word for word, _ in typed_list(nodes, reporter) if word.text in cycle)
+        raise reporter.error(f"the types are in a cycle: {' - '.join(cycle)}", word)
 
 
 def read_objects(nodes: Sequence[Node], vocabulary: Vocabulary, reporter: Reporter) -> dict[str, str]:
-    """Return the objects of a `:constants` or `:objects` section that the vocabulary does not have yet, and add them to it."""
+    """Return the objects of a section that the vocabulary does not have yet, and add them to it."""
     added: dict[str, str] = {}
     repeated: list[Word] = []
     for word, types in typed_list(nodes, reporter):
@@ -101,7 +84,9 @@ def read_objects(nodes: Sequence[Node], vocabulary: Vocabulary, reporter: Report
         elif before == kind:
             repeated.append(word)
         else:
-            raise reporter.error(f"object '{name}' is of type '{before}' already, found a declaration as '{kind}'", word)
+            raise reporter.error(
+                f"object '{name}' is of type '{before}' already, found a declaration as '{kind}'", word
+            )
     if repeated:
         others = f", and {len(repeated) - 1} more like it" if len(repeated) > 1 else ""
         reporter.warn(f"object '{repeated[0].text}' is declared again{others}", repeated[0])

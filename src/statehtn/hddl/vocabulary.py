@@ -71,8 +71,8 @@ class Vocabulary:
             head: the node that an error about the number of arguments points to.
 
         Raises:
-            InputError: the number of arguments, a name or a type is wrong. A variable is of a wrong type only if no object
-                can be of both types.
+            InputError: the number of arguments, a name or a type is wrong. A variable is of a wrong type only if no
+                object can be of both types.
         """
         wanted = signature.parameters
         if len(nodes) != len(wanted):
@@ -83,7 +83,9 @@ class Vocabulary:
         for node, term, parameter in zip(nodes, terms, wanted, strict=True):
             if term in scope:
                 if not self.overlap(scope[term], parameter.types):
-                    raise reporter.error(self._wrong_type("variable", term, scope[term], parameter, kind, signature), node)
+                    raise reporter.error(
+                        self._wrong_type("variable", term, scope[term], parameter, kind, signature), node
+                    )
             elif self.supertypes(self.objects[term]).isdisjoint(parameter.types):
                 raise reporter.error(
                     self._wrong_type("object", term, (self.objects[term],), parameter, kind, signature), node

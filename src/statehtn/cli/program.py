@@ -1,4 +1,4 @@
-"""Entry point of the command line: every ending becomes an exit code and, where something is wrong, one line on stderr."""
+"""Entry point of the command line: every ending becomes an exit code, and every mistake one line on stderr."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import threading
 import traceback
 import warnings
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 
 from statehtn.cli.arguments import parse_arguments
@@ -60,12 +60,10 @@ def _explain(error: BaseException) -> ExitCode:
 
 def _complain(code: ExitCode, line: str) -> ExitCode:
     """Write a line to stderr, after the traceback where STATEHTN_DEBUG asks for it."""
-    try:
+    with suppress(OSError):  # nobody is left to tell
         if os.environ.get("STATEHTN_DEBUG"):
             traceback.print_exc()
         print(line, file=sys.stderr, flush=True)
-    except OSError:
-        pass  # nobody is left to tell
     return code
 
 
@@ -91,10 +89,8 @@ def _warnings_as_lines() -> Iterator[None]:
     """Show warnings about the input as lines on stderr."""
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
-        try:
+        with suppress(OSError):  # nobody is left to tell
             print(f"warning: {message}", file=sys.stderr)
-        except OSError:
-            pass  # nobody is left to tell
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)

@@ -1,0 +1,164 @@
+"""Costs inside effects: `increase` of the total cost, `probabilistic` blocks of them, and the expressions in both."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+
+from statehtn.hddl.diagnostics import Reporter, unknown
+from statehtn.hddl.expressions import Group, Node, Word, describe
+from statehtn.hddl.vocabulary import Scope, Vocabulary
+from statehtn.model import Arithmetic, Expression, FunctionTerm, Number
+from statehtn.model.cost_law import evaluate
+from statehtn.model.costs import PROBABILITY_TOLERANCE
+
+TOTAL_COST = "total-cost"
+Branches = tuple[tuple[Expression, Expression], ...]
+
+_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e([+-]?[0-9]{1,3}))?|[+-]?[0-9]+/0*[1-9][0-9]*", re.ASCII)
+MAX_DIGITS = 1000
+
+
+def read_number(text: str) -> Fraction | None:
+    """Return the exact value of `3`, `-0.5`, `.5`, `1e-3` or `1/3`; None for anything else.
+
+    Numbers of more than 1000 characters and exponents of more than three digits are none.
+    """
+    return Fraction(text) if len(text) <= MAX_DIGITS and _NUMBER.fullmatch(text) else None
+
+
+@dataclass(frozen=True, slots=True)
+class CostReader:
+    """Reads costs over a vocabulary."""
+
+    vocabulary: Vocabulary
+    reporter: Reporter
+
+    def increase(self, node: Group, scope: Scope) -> Expression:
+        """Return the expression of `(increase (total-cost) <expression>)`.
+
+        Raises:
+            InputError: it is malformed, or a negative constant.
+            UnsupportedError: it increases another function.
+        """
+        if len(node.items) != 3:
+            raise self.reporter.error("expected '(increase (total-cost) <expression>)'", node)
+        target, amount = node.items[1:]
+        name = target.head if isinstance(target, Group) else target.text
+        if name != TOTAL_COST:
+            raise self.reporter.unsupported(
+                f"only (total-cost) can be increased, found {describe(target)}; actions cannot change other numbers",
+                target,
+            )
+        if isinstance(target, Word):
+            self.reporter.warn("'total-cost' is a function and belongs in parentheses: (total-cost)", target)
+        elif len(target.items) != 1:
+            raise self.reporter.error("'total-cost' takes no arguments", target)
+        cost = self.expression(amount, scope)
+        value = constant_value(cost)
+        if value is not None and value < 0:
+            raise self.reporter.error(f"a cost must not be negative, found {_shown(value)}", amount)
+        return cost
+
+    def probabilistic(self, node: Group, scope: Scope) -> Branches:
+        """Return the branches of `(probabilistic p1 e1 p2 e2 ...)`, each effect a cost or nothing.
+
+        Raises:
+            InputError: probabilities that are constant are negative or sum to more than 1.
+            UnsupportedError: an effect does more than to increase the total cost.
+        """
+        nodes = node.items[1:]
+        if not nodes or len(nodes) % 2:
+            raise self.reporter.error(
+                f"expected pairs of a probability and an effect after 'probabilistic', found {len(nodes)} items", node
+            )
+        branches = []
+        for probability_node, effect in zip(nodes[::2], nodes[1::2], strict=True):
+            probability = self.expression(probability_node, scope)
+            value = constant_value(probability)
+            if value is not None and value < 0:
+                raise self.reporter.error(
+                    f"a probability must not be negative, found {_shown(value)}", probability_node
+                )
+            branches.append((probability, self._outcome(effect, scope)))
+        self._check_sum(branches, node)
+        return tuple(branches)
+
+    def expression(self, node: Node, scope: Scope) -> Expression:
+        """Return a number, a function of the parameters, or a sum, difference or product of expressions."""
+        if isinstance(node, Word):
+            value = read_number(node.text)
+            if value is None:
+                hint = "; functions stand in parentheses" if node.text in self.vocabulary.functions else ""
+                raise self.reporter.error(
+                    f"expected a number or a function in parentheses, found {describe(node)}{hint}", node
+                )
+            return Number(value)
+        signature = self.vocabulary.functions.get(node.head)
+        if signature is not None:
+            terms = self.vocabulary.terms("function", signature, node, node.items[1:], scope, self.reporter)
+            return FunctionTerm(node.head, terms)
+        operands = node.items[1:]
+        if node.head in ("+", "-", "*"):
+            if not operands:
+                raise self.reporter.error(f"'{node.head}' needs an operand", node)
+            return Arithmetic(node.head, tuple(self.expression(operand, scope) for operand in operands))
+        if node.head == "/":
+            raise self.reporter.unsupported("division is not supported in costs; write a number or a function", node)
+        if node.head == TOTAL_COST:
+            raise self.reporter.unsupported("a cost cannot depend on the total cost so far", node)
+        if not node.head:
+            raise self.reporter.error(f"expected a number, a function or + - *, found {describe(node)}", node)
+        raise self.reporter.error(unknown("function", node.head, self.vocabulary.functions), node.items[0])
+
+    def _outcome(self, node: Node, scope: Scope) -> Expression:
+        """Return the cost of one branch; several increases add up, no effect costs 0."""
+        if isinstance(node, Word):
+            raise self.reporter.error(
+                f"expected an effect such as '(increase (total-cost) 2)', found {describe(node)}", node
+            )
+        if not node.items:
+            return Number(Fraction(0))
+        if node.head == "increase":
+            return self.increase(node, scope)
+        if node.head == "and":
+            costs = tuple(self._outcome(item, scope) for item in node.items[1:])
+            return costs[0] if len(costs) == 1 else Arithmetic("+", costs) if costs else Number(Fraction(0))
+        raise self.reporter.unsupported(
+            f"a branch of 'probabilistic' can only increase (total-cost), not change facts, found {describe(node)}",
+            node,
+        )
+
+    def _check_sum(self, branches: list[tuple[Expression, Expression]], node: Group) -> None:
+        total = Fraction(0)
+        is_constant = True
+        for probability, _ in branches:
+            value = constant_value(probability)
+            is_constant = is_constant and value is not None
+            total += value or 0
+        if total > 1 + PROBABILITY_TOLERANCE:  # those that are not constant are at least 0
+            raise self.reporter.error(f"the probabilities of this block sum to {_shown(total)}, more than 1", node)
+        if is_constant and total < 1 - PROBABILITY_TOLERANCE:
+            self.reporter.warn(
+                f"the probabilities of this block sum to {_shown(total)}; with the rest it costs 0",
+                node,
+            )
+
+
+def constant_value(expression: Expression) -> Fraction | None:
+    """Return the value of an expression without functions, None for one with functions."""
+    return None if _has_function(expression) else evaluate(expression, {}, {})
+
+
+def _has_function(expression: Expression) -> bool:
+    if isinstance(expression, Arithmetic):
+        return any(_has_function(operand) for operand in expression.operands)
+    return isinstance(expression, FunctionTerm)
+
+
+def _shown(value: Fraction) -> str:
+    try:
+        return f"{float(value):.12g}"
+    except OverflowError:
+        return "a number of more than 308 digits"

@@ -1,0 +1,204 @@
+"""The domain: declarations first, in whatever order they stand, then actions and methods."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from statehtn.hddl.cost_reader import TOTAL_COST
+from statehtn.hddl.diagnostics import Diagnostics, Reporter, unknown
+from statehtn.hddl.effect_reader import EffectReader
+from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
+from statehtn.hddl.formula_reader import FormulaReader
+from statehtn.hddl.network_reader import NETWORK_KEYWORDS, read_network
+from statehtn.hddl.sections import Fields, read_header, section_name
+from statehtn.hddl.tokens import Source
+from statehtn.hddl.typed_lists import read_objects, read_parameters, read_types
+from statehtn.hddl.vocabulary import Vocabulary, new_name, unreserved
+from statehtn.limits import Limits
+from statehtn.model import TRUE, Action, Domain, Formula, Method, Parameter, Signature, TypeHierarchy
+
+SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", ":task", ":action", ":method")
+UNSUPPORTED = {
+    ":durative-action": "actions with durations are not supported",
+    ":derived": "derived predicates are not supported",
+    ":constraints": "trajectory constraints are not supported",
+    ":process": "processes are not supported",
+    ":event": "events are not supported",
+}
+ACTION_KEYWORDS = (":parameters", ":precondition", ":effect")
+METHOD_KEYWORDS = (":parameters", ":task", ":precondition", *NETWORK_KEYWORDS)
+
+
+def read_domain(source: Source, diagnostics: Diagnostics, limits: Limits) -> tuple[Domain, Vocabulary]:
+    """Return the domain of a file, and its declarations for reading a problem.
+
+    Raises:
+        InputError: with the place of the mistake.
+        UnsupportedError: it uses a part of PDDL that is not supported.
+    """
+    return _DomainReader(source, Reporter(source, diagnostics), limits).read()
+
+
+@dataclass(slots=True)
+class _DomainReader:
+    source: Source
+    reporter: Reporter
+    limits: Limits
+    vocabulary: Vocabulary = field(default_factory=Vocabulary)
+    sections: dict[str, list[tuple[int, int]]] = field(default_factory=lambda: {name: [] for name in SECTIONS})
+
+    def read(self) -> tuple[Domain, Vocabulary]:
+        name = read_header(self.source, "domain", self.reporter)
+        self._sort_sections()
+        vocabulary = self.vocabulary
+        vocabulary.types = TypeHierarchy(self._types())
+        constants: dict[str, str] = {}
+        for group in self._groups(":constants"):
+            constants |= read_objects(group.items[1:], vocabulary, self.reporter)
+        for group in self._groups(":predicates"):
+            self._predicates(group)
+        for group in self._groups(":functions"):
+            self._functions(group)
+        for group in self._groups(":task"):
+            self._task(group)
+        actions = [self._head(group) for group in self._groups(":action")]
+        domain = Domain(
+            name,
+            vocabulary.types,
+            constants,
+            vocabulary.predicates,
+            vocabulary.functions,
+            vocabulary.tasks,
+            {signature.name: self._action(signature, fields) for signature, fields in actions},
+            self._methods(),
+        )
+        return domain, vocabulary
+
+    def _sort_sections(self) -> None:
+        for start, end in self.source.sections[1:]:
+            name = section_name(self.source, start)
+            if name in UNSUPPORTED:
+                raise self.reporter.unsupported(UNSUPPORTED[name], Word(name, start))
+            if name not in self.sections:
+                raise self.source.error(unknown("section", name, SECTIONS), start)
+            self.sections[name].append((start, end))
+        for name in (":types", ":constants", ":predicates", ":functions"):
+            for start, _ in self.sections[name][1:]:
+                self.reporter.warn(f"a second section '{name}'; it is added to the first", Word(name, start))
+
+    def _groups(self, name: str) -> Iterable[Group]:
+        for start, _ in self.sections[name]:
+            self.limits.check()
+            yield parse_group(self.source, start)
+
+    def _types(self) -> dict[str, tuple[str, ...]]:
+        parents: dict[str, tuple[str, ...]] = {}
+        for group in self._groups(":types"):
+            read_types(group.items[1:], parents, self.reporter)
+        return parents
+
+    def _predicates(self, section: Group) -> None:
+        for node in section.items[1:]:
+            signature = self._signature(node, "predicate")
+            if signature.name == "=":
+                self.reporter.warn("'=' is built in and need not be declared", node)
+                continue
+            self._check_new(signature.name, "predicate", self.vocabulary.predicates, node)
+            self.vocabulary.predicates[signature.name] = signature
+
+    def _functions(self, section: Group) -> None:
+        """Read `(slow ?a ?b) - number`; the type may be left out, and `(total-cost)` is known anyway."""
+        nodes = section.items[1:]
+        index = 0
+        while index < len(nodes):
+            node = nodes[index]
+            index += 1
+            if isinstance(node, Word) and node.text == "-" and index > 1:
+                kind = nodes[index] if index < len(nodes) else node
+                if not isinstance(kind, Word) or kind.text != "number":
+                    raise self.reporter.unsupported(f"functions have the type 'number', found {describe(kind)}", kind)
+                index += 1
+                continue
+            signature = self._signature(node, "function")
+            if signature.name == TOTAL_COST:
+                continue
+            self._check_new(signature.name, "function", self.vocabulary.functions, node)
+            self.vocabulary.functions[signature.name] = signature
+
+    def _signature(self, node: Node, kind: str) -> Signature:
+        if isinstance(node, Word) or not node.items:
+            raise self.reporter.error(f"expected '(<{kind}> <parameters>)', found {describe(node)}", node)
+        name = unreserved(new_name(node.items[0], kind, node, self.reporter), kind, node, self.reporter)
+        return Signature(name, read_parameters(node.items[1:], self.vocabulary, self.reporter, distinct=False))
+
+    def _task(self, section: Group) -> None:
+        signature, _ = self._head(section, (":parameters",))
+        self.vocabulary.tasks[signature.name] = signature
+
+    def _head(self, section: Group, keywords: tuple[str, ...] = ACTION_KEYWORDS) -> tuple[Signature, Fields]:
+        """Declare an action or a task; actions are read only when all of them are declared."""
+        kind = section.head[1:]
+        name_node = section.items[1] if len(section.items) > 1 else None
+        name = unreserved(new_name(name_node, kind, section, self.reporter), kind, section, self.reporter)
+        for other_kind, known in (("task", self.vocabulary.tasks), ("action", self.vocabulary.actions)):
+            self._check_new(name, other_kind, known, name_node or section)
+        fields = Fields(section, section.items[2:], keywords, self.reporter)
+        signature = Signature(name, read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter))
+        if kind == "action":
+            self.vocabulary.actions[name] = signature
+        return signature, fields
+
+    def _check_new(self, name: str, kind: str, known: Iterable[str], at: Node) -> None:
+        if name in known:
+            raise self.reporter.error(f"there is a {kind} '{name}' already", at)
+
+    def _action(self, signature: Signature, fields: Fields) -> Action:
+        scope = _scope(signature.parameters)
+        precondition = self._precondition(fields, scope)
+        reader = EffectReader(self.vocabulary, self.reporter)
+        effect = fields.get(":effect")
+        if effect is not None:
+            reader.read(effect, scope)
+        return Action(signature.name, signature.parameters, precondition, tuple(reader.effects), tuple(reader.costs))
+
+    def _methods(self) -> dict[str, Method]:
+        methods: dict[str, Method] = {}
+        for section in self._groups(":method"):
+            name_node = section.items[1] if len(section.items) > 1 else None
+            name = new_name(name_node, "method", section, self.reporter)
+            self._check_new(name, "method", methods, name_node or section)
+            methods[name] = self._method(name, section)
+        return methods
+
+    def _method(self, name: str, section: Group) -> Method:
+        fields = Fields(section, section.items[2:], METHOD_KEYWORDS, self.reporter)
+        parameters = read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter)
+        scope = _scope(parameters)
+        task, arguments = self._decomposed(name, fields, scope)
+        network = read_network(fields, scope, self.vocabulary, self.reporter)
+        return Method(name, parameters, task, arguments, network, self._precondition(fields, scope))
+
+    def _decomposed(self, name: str, fields: Fields, scope: dict[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]]:
+        node = fields.get(":task")
+        if node is None or not node.head:
+            raise self.reporter.error(
+                f"method '{name}' must say which task it decomposes: ':task (<task> <arguments>)'", node or fields.owner
+            )
+        signature = self.vocabulary.tasks.get(node.head)
+        if signature is None:
+            if node.head in self.vocabulary.actions:
+                raise self.reporter.error(
+                    f"method '{name}' cannot decompose '{node.head}', which is an action", node.items[0]
+                )
+            message = unknown("task", node.head, self.vocabulary.tasks)
+            raise self.reporter.error(f"method '{name}' decomposes an {message}", node.items[0])
+        return node.head, self.vocabulary.terms("task", signature, node, node.items[1:], scope, self.reporter)
+
+    def _precondition(self, fields: Fields, scope: dict[str, tuple[str, ...]]) -> Formula:
+        node = fields.get(":precondition")
+        return TRUE if node is None else FormulaReader(self.vocabulary, self.reporter).read(node, scope)
+
+
+def _scope(parameters: tuple[Parameter, ...]) -> dict[str, tuple[str, ...]]:
+    return {parameter.name: parameter.types for parameter in parameters}

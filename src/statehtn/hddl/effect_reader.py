@@ -1,0 +1,110 @@
+"""Effects of actions: facts that become true or false, and costs, under conditions and for all objects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from statehtn.hddl.cost_reader import CostReader
+from statehtn.hddl.diagnostics import Reporter, unknown
+from statehtn.hddl.expressions import Group, Node, Word, describe
+from statehtn.hddl.formula_reader import FormulaReader
+from statehtn.hddl.typed_lists import read_parameters
+from statehtn.hddl.vocabulary import Scope, Vocabulary
+from statehtn.model import TRUE, And, Atom, CostBlock, Effect, Formula, Number, Parameter
+
+_NUMERIC = frozenset({"decrease", "assign", "scale-up", "scale-down"})
+
+
+@dataclass(slots=True)
+class EffectReader:
+    """Collects the effects and cost blocks of one action."""
+
+    vocabulary: Vocabulary
+    reporter: Reporter
+    effects: list[Effect] = field(default_factory=list)
+    costs: list[CostBlock] = field(default_factory=list)
+
+    def read(self, node: Node, scope: Scope, condition: Formula = TRUE, parameters: tuple[Parameter, ...] = ()) -> None:
+        """Add the effects and costs of a node.
+
+        Args:
+            scope: all variables that are declared here.
+            condition: of the `when`s around the node.
+            parameters: of the `forall`s around the node.
+
+        Raises:
+            InputError: it is malformed, or a name is unknown.
+            UnsupportedError: it changes facts by chance, or numbers other than the total cost.
+        """
+        if isinstance(node, Word):
+            raise self.reporter.error(f"expected an effect in parentheses, found {describe(node)}", node)
+        if not node.items:
+            return
+        match node.head:
+            case "and":
+                for item in node.items[1:]:
+                    self.read(item, scope, condition, parameters)
+            case "not":
+                if len(node.items) != 2:
+                    raise self.reporter.error("expected '(not (<predicate> ...))'", node)
+                self.effects.append(Effect(self._atom(node.items[1], scope), False, condition, parameters))
+            case "forall":
+                self._forall(node, scope, condition, parameters)
+            case head if head in self.vocabulary.predicates:
+                self.effects.append(Effect(self._atom(node, scope), True, condition, parameters))
+            case "when":
+                self._when(node, scope, condition, parameters)
+            case "increase":
+                cost = self._cost_reader().increase(node, scope)
+                self.costs.append(CostBlock(((Number(Fraction(1)), cost),), condition, parameters))
+            case "probabilistic":
+                branches = self._cost_reader().probabilistic(node, scope)
+                self.costs.append(CostBlock(branches, condition, parameters))
+            case _:
+                raise self._refusal(node)
+
+    def _when(self, node: Group, scope: Scope, condition: Formula, parameters: tuple[Parameter, ...]) -> None:
+        if len(node.items) != 3:
+            raise self.reporter.error("expected '(when <condition> <effect>)'", node)
+        inner = FormulaReader(self.vocabulary, self.reporter).read(node.items[1], scope)
+        both = inner if condition == TRUE else And((condition, inner))
+        self.read(node.items[2], scope, both, parameters)
+
+    def _forall(self, node: Group, scope: Scope, condition: Formula, parameters: tuple[Parameter, ...]) -> None:
+        declared = node.items[1] if len(node.items) == 3 else None
+        if not isinstance(declared, Group):
+            raise self.reporter.error("expected '(forall (<variables>) <effect>)'", node)
+        added = read_parameters(declared.items, self.vocabulary, self.reporter)
+        for parameter in added:
+            if parameter.name in scope:  # one name for two variables, perhaps in one condition
+                raise self.reporter.error(
+                    f"variable '{parameter.name}' is declared already; give this one another name", declared
+                )
+        inner_scope = {**scope, **{parameter.name: parameter.types for parameter in added}}
+        self.read(node.items[2], inner_scope, condition, (*parameters, *added))
+
+    def _atom(self, node: Node, scope: Scope) -> Atom:
+        if isinstance(node, Word) or not node.head:
+            raise self.reporter.error(f"expected '(<predicate> ...)', found {describe(node)}", node)
+        signature = self.vocabulary.predicates.get(node.head)
+        if signature is None:
+            raise self._refusal(node)
+        terms = self.vocabulary.terms("predicate", signature, node, node.items[1:], scope, self.reporter)
+        return Atom(node.head, terms)
+
+    def _cost_reader(self) -> CostReader:
+        return CostReader(self.vocabulary, self.reporter)
+
+    def _refusal(self, node: Group) -> Exception:
+        if not node.head:
+            return self.reporter.error(f"expected an effect, found {describe(node.items[0])}", node)
+        if node.head in _NUMERIC:
+            return self.reporter.unsupported(
+                f"numeric effects ('{node.head}') are not supported, only costs by 'increase'", node
+            )
+        if node.head == "oneof":
+            return self.reporter.unsupported("non-deterministic effects ('oneof') are not supported", node)
+        if node.head in ("or", "imply", "exists", "="):
+            return self.reporter.error(f"'{node.head}' cannot be an effect", node)
+        return self.reporter.error(unknown("predicate", node.head, self.vocabulary.predicates), node.items[0])

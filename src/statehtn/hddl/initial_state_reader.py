@@ -1,0 +1,152 @@
+"""The initial state: many facts and function values, read without an object for each token."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from statehtn.hddl.cost_reader import TOTAL_COST, read_number
+from statehtn.hddl.diagnostics import Reporter, unknown
+from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
+from statehtn.hddl.vocabulary import Vocabulary
+from statehtn.limits import Limits
+from statehtn.model import Fact, Signature
+
+CHECK_EVERY = 4096
+
+
+class InitialStateReader:
+    """Collects facts and function values.
+
+    Plain facts and values take a fast path that looks at tokens only; whatever it does not take is read as a nested
+    list, which then explains what is wrong with it.
+    """
+
+    def __init__(self, vocabulary: Vocabulary, reporter: Reporter, limits: Limits) -> None:
+        self.facts: set[Fact] = set()
+        self.values: dict[tuple[str, ...], Fraction] = {}
+        self._false: list[tuple[Fact, Node]] = []
+        self._vocabulary = vocabulary
+        self._reporter = reporter
+        self._limits = limits
+        self._objects_of: dict[tuple[str, ...], frozenset[str]] = {}
+        self._predicates = self._allowed(vocabulary.predicates)
+        self._functions = self._allowed(vocabulary.functions)
+        self._numbers: dict[str, Fraction | None] = {}
+
+    def read(self, start: int, end: int) -> None:
+        """Add what a section states.
+
+        Args:
+            start: the token of the `(` of `(:init ...)`.
+            end: the token after its `)`.
+
+        Raises:
+            InputError: a name is unknown, an argument wrong, or a statement contradicts another one.
+        """
+        tokens, facts, predicates = self._reporter.source.tokens, self.facts, self._predicates
+        index = start + 2
+        countdown = CHECK_EVERY
+        while index < end - 1:
+            countdown -= 1
+            if not countdown:
+                self._limits.check()
+                countdown = CHECK_EVERY
+            close = tokens.index(")", index)
+            fact = tuple(tokens[index + 1 : close])
+            allowed = predicates.get(fact[0]) if fact else None
+            if allowed is None or tokens[index] != "(" or len(fact) != len(allowed) + 1:
+                index = self._value(index) or self._other(index)
+                continue
+            for position, names in enumerate(allowed, 1):
+                if fact[position] not in names:
+                    index = self._other(index)
+                    break
+            else:
+                facts.add(fact)
+                index = close + 1
+        for fact, node in self._false:
+            if fact in facts:
+                raise self._reporter.error(f"the fact ({' '.join(fact)}) is stated as true and as false", node)
+
+    def _allowed(self, signatures: dict[str, Signature]) -> dict[str, tuple[frozenset[str], ...]]:
+        """For every name the objects that each parameter allows."""
+        return {
+            name: tuple(self._objects(parameter.types) for parameter in signature.parameters)
+            for name, signature in signatures.items()
+        }
+
+    def _objects(self, types: tuple[str, ...]) -> frozenset[str]:
+        if types not in self._objects_of:
+            self._objects_of[types] = self._vocabulary.objects_of(types)
+        return self._objects_of[types]
+
+    def _value(self, index: int) -> int | None:
+        """Take `(= (function objects) number)` and return the token after it; None if it is anything else."""
+        tokens = self._reporter.source.tokens
+        if tokens[index : index + 3] != ["(", "=", "("]:
+            return None
+        close = tokens.index(")", index)
+        key = tuple(tokens[index + 3 : close])
+        allowed = self._functions.get(key[0]) if key else None
+        if allowed is None or len(key) != len(allowed) + 1 or tokens[close + 2] != ")" or key in self.values:
+            return None
+        if not all(name in names for name, names in zip(key[1:], allowed, strict=True)):
+            return None
+        text = tokens[close + 1]
+        if text not in self._numbers:
+            self._numbers[text] = read_number(text)
+        value = self._numbers[text]
+        if value is None:
+            return None
+        self.values[key] = value
+        return close + 3
+
+    def _other(self, index: int) -> int:
+        """Read one statement of the less usual kinds, or say what is wrong; return the token after it."""
+        source = self._reporter.source
+        if source.tokens[index] != "(":
+            raise source.error(f"expected a fact in parentheses, found '{source.tokens[index]}'", index)
+        node = parse_group(source, index)
+        end, depth = index, 0
+        while depth or end == index:
+            depth += {"(": 1, ")": -1}.get(source.tokens[end], 0)
+            end += 1
+        match node.head:
+            case "=":
+                self._assignment(node)
+            case "not":
+                operand = node.items[1] if len(node.items) == 2 else node
+                if not isinstance(operand, Group) or operand is node:
+                    raise self._reporter.error("expected '(not (<predicate> ...))'", node)
+                self._false.append((self._fact(operand), node))
+            case "probabilistic" | "oneof" | "or" | "unknown" if node.head not in self._predicates:
+                raise self._reporter.unsupported("the initial state must be certain", node)
+            case _:
+                self.facts.add(self._fact(node))
+        return end
+
+    def _fact(self, node: Group) -> Fact:
+        if not node.head:
+            raise self._reporter.error(f"expected '(<predicate> <objects>)', found {describe(node)}", node)
+        signature = self._vocabulary.predicates.get(node.head)
+        if signature is None:
+            raise self._reporter.error(unknown("predicate", node.head, self._predicates), node.items[0])
+        return (node.head, *self._vocabulary.terms("predicate", signature, node, node.items[1:], {}, self._reporter))
+
+    def _assignment(self, node: Group) -> None:
+        _, term, number = node.items if len(node.items) == 3 else (node, node, node)
+        if not isinstance(term, Group) or not isinstance(number, Word):
+            raise self._reporter.error("expected '(= (<function> <objects>) <number>)'", node)
+        value = read_number(number.text)
+        if value is None:
+            raise self._reporter.error(f"expected a number, found {describe(number)}", number)
+        if term.head == TOTAL_COST and len(term.items) == 1:
+            if value:
+                self._reporter.warn("the total cost starts at 0; another value is ignored", node)
+            return
+        signature = self._vocabulary.functions.get(term.head)
+        if signature is None:
+            raise self._reporter.error(unknown("function", term.head, self._functions), term)
+        key = (term.head, *self._vocabulary.terms("function", signature, term, term.items[1:], {}, self._reporter))
+        if self.values.setdefault(key, value) != value:
+            raise self._reporter.error(f"the value of ({' '.join(key)}) is given twice, with different numbers", node)

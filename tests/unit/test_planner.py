@@ -1,0 +1,216 @@
+"""The Python interface: arguments, results, limits and endings."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+import statehtn
+from statehtn.limits import resident_mb
+from statehtn.planner import Query
+from tests.test_minimal import DOMAIN, PROBLEM
+
+STATISTICS = {
+    "expanded",
+    "generated",
+    "evaluated",
+    "dead_ends",
+    "facts",
+    "actions",
+    "tasks",
+    "methods",
+    "parse_seconds",
+    "ground_seconds",
+    "search_seconds",
+    "peak_memory_mb",
+}
+KEYS = [
+    "status",
+    "problem_class",
+    "solver",
+    "heuristic",
+    "attitude",
+    "alpha",
+    "plan",
+    "length",
+    "expected_cost",
+    "risk_cost",
+    "expected_utility",
+    "log10_expected_utility",
+    "lower_bound",
+    "statistics",
+]
+UNSOLVABLE = PROBLEM.replace("(away)", "(home)")
+# One can be here or there but never both; relaxed reachability does not see that, and the networks grow for ever.
+ENDLESS_DOMAIN = """
+(define (domain endless)
+  (:predicates (here) (there))
+  (:functions (total-cost) - number)
+  (:task wander :parameters ())
+  (:method on :parameters () :task (wander) :subtasks (and (go) (back) (wander) (wander)))
+  (:method rest :parameters () :task (wander) :subtasks (and (go)))
+  (:action go :parameters () :effect (and (there) (not (here)) (increase (total-cost) 1)))
+  (:action back :parameters () :effect (and (here) (not (there)) (increase (total-cost) 1)))
+  (:action be-everywhere :parameters () :precondition (and (here) (there))))
+"""
+ENDLESS_PROBLEM = """
+(define (problem p) (:domain endless)
+  (:htn :parameters () :ordered-subtasks (and (wander) (be-everywhere))) (:init (here)))
+"""
+
+
+@pytest.fixture
+def problem() -> statehtn.Problem:
+    return statehtn.read_hddl_text(DOMAIN, PROBLEM)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"attitude": "averse"},
+        {"attitude": "averse", "alpha": 0.0},
+        {"attitude": "seeking", "alpha": -1.0},
+        {"attitude": "seeking", "alpha": float("nan")},
+        {"alpha": 0.5},
+        {"attitude": "brave"},
+        {"heuristic": "magic"},
+        {"solver": "oracle"},
+        {"search": "depth-first"},
+        {"weight": 2.0},
+        {"search": "weighted", "weight": 0.5},
+        {"search": "weighted", "weight": float("inf")},
+        {"time_limit": -1.0},
+        {"time_limit": 0.0},
+        {"memory_limit": -5.0},
+        {"memory_limit": float("nan")},
+    ],
+)
+def test_arguments_out_of_range(problem: statehtn.Problem, arguments: dict[str, object]) -> None:
+    with pytest.raises(statehtn.UsageError):
+        statehtn.plan(problem, **arguments)  # type: ignore[arg-type]
+
+
+def test_result_of_an_optimal_plan(problem: statehtn.Problem) -> None:
+    result = statehtn.plan(problem, attitude="averse", alpha=0.9)
+    found = result.to_dict()
+    assert list(found) == KEYS
+    assert set(found["statistics"]) == STATISTICS
+    assert json.loads(json.dumps(found, allow_nan=False)) == found
+    assert found["plan"] == [
+        {"action": "take-train", "arguments": [], "expected_cost": 4.0, "risk_cost": 4.0, "outcomes": [[1.0, 4.0]]}
+    ]
+    assert (found["status"], found["length"], found["problem_class"]) == ("optimal", 1, "PS10110")
+    assert found["expected_cost"] == found["risk_cost"] == 4.0
+    assert found["lower_bound"] == pytest.approx(4.0, rel=1e-9)
+    assert found["lower_bound"] <= found["risk_cost"]
+    assert float(found["expected_utility"]) == pytest.approx(-40.66470493)
+    assert bool(result)
+    assert "take-train" in str(result)
+
+
+def test_neutral_result_has_no_logarithm(problem: statehtn.Problem) -> None:
+    result = statehtn.plan(problem)
+    assert result.problem_class == "PS10011"
+    assert result.log10_expected_utility is None
+    assert result.alpha is None
+    assert float(result.expected_utility or "nan") == pytest.approx(-3.4)
+
+
+def test_unsolvable_is_a_value() -> None:
+    result = statehtn.plan(statehtn.read_hddl_text(DOMAIN, UNSOLVABLE))
+    assert result.status is statehtn.Status.UNSOLVABLE
+    assert not result
+    found = result.to_dict()
+    unknown = ("plan", "length", "expected_cost", "risk_cost", "expected_utility", "lower_bound")
+    assert all(found[key] is None for key in unknown)
+    assert "unsolvable" in str(result)
+
+
+@pytest.mark.parametrize("search", ["astar", "weighted", "greedy"])
+@pytest.mark.parametrize("heuristic", statehtn.HEURISTICS)
+def test_every_registered_choice_finds_a_valid_plan(problem: statehtn.Problem, heuristic: str, search: str) -> None:
+    result = statehtn.plan(problem, heuristic=heuristic, search=search)
+    assert result.plan is not None
+    assert result.heuristic == heuristic
+    assert result.lower_bound is not None
+    assert result.lower_bound <= (result.risk_cost or 0.0)
+    if search == "astar":
+        assert result.status is statehtn.Status.OPTIMAL
+
+
+def test_time_limit_is_a_value(problem: statehtn.Problem) -> None:
+    result = statehtn.plan(problem, time_limit=1e-9)
+    assert result.status in (statehtn.Status.TIME_LIMIT, statehtn.Status.OPTIMAL)
+    assert result.statistics.ground_seconds is not None
+
+
+def test_endless_search_ends_at_the_time_limit_with_a_bound() -> None:
+    endless = statehtn.read_hddl_text(ENDLESS_DOMAIN, ENDLESS_PROBLEM)
+    seen: list[statehtn.Progress] = []
+    result = statehtn.plan(endless, time_limit=0.5, progress=seen.append)
+    assert result.status is statehtn.Status.TIME_LIMIT
+    assert result.lower_bound is not None
+    assert result.lower_bound > 0
+    assert result.statistics.search_seconds == pytest.approx(0.5, abs=0.3)
+    assert 2 <= len(seen) <= 20
+    assert [progress.expanded for progress in seen] == sorted(progress.expanded for progress in seen)
+
+
+def test_endless_search_ends_at_the_memory_limit_with_a_bound() -> None:
+    endless = statehtn.read_hddl_text(ENDLESS_DOMAIN, ENDLESS_PROBLEM)
+    limit = resident_mb() + 40
+    result = statehtn.plan(endless, heuristic="blind", memory_limit=limit, time_limit=30)
+    assert result.status is statehtn.Status.MEMORY_LIMIT
+    assert result.lower_bound is not None
+    assert resident_mb() < limit + 20
+
+
+def test_a_progress_callback_may_raise() -> None:
+    endless = statehtn.read_hddl_text(ENDLESS_DOMAIN, ENDLESS_PROBLEM)
+
+    def refuse(_: statehtn.Progress) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        statehtn.plan(endless, time_limit=10, progress=refuse)
+
+
+def test_an_interrupt_is_a_value() -> None:
+    endless = statehtn.read_hddl_text(ENDLESS_DOMAIN, ENDLESS_PROBLEM)
+    timer = threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT))
+    timer.start()
+    start = time.monotonic()
+    result = statehtn.plan(endless, time_limit=10)
+    timer.join()
+    assert result.status is statehtn.Status.INTERRUPTED
+    assert time.monotonic() - start < 1
+    assert result.lower_bound is not None
+
+
+def test_huge_limits_are_none(problem: statehtn.Problem) -> None:
+    assert statehtn.plan(problem, time_limit=float("inf"), memory_limit=1e9).status is statehtn.Status.OPTIMAL
+
+
+def test_query_takes_the_default_weight() -> None:
+    assert Query.of(search="weighted").weight == 2.0
+    assert Query.of(search="weighted", weight=1.5).weight == 1.5
+    assert Query.of().weight == 1.0
+
+
+def test_import_is_quick_and_light() -> None:
+    code = (
+        "import sys, time; start = time.perf_counter(); import statehtn; "
+        "print(time.perf_counter() - start, {'rich', 'networkx', 'numpy'} & set(sys.modules))"
+    )
+    seconds = []
+    for _ in range(3):
+        output = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+        assert output[1] == "set()"
+        seconds.append(float(output[0]))
+    assert min(seconds) < 0.2
