@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -22,6 +23,7 @@ from statehtn.model import (
     Problem,
     TaskNetwork,
 )
+from statehtn.model.cost_law import action_law
 from statehtn.model.problem import Action
 
 DECLARATIONS = (
@@ -198,3 +200,14 @@ def test_external_costs_cannot_be_written() -> None:
     problem = Problem("p", Domain("d", actions={"a": action}), network=TaskNetwork())
     with pytest.raises(UnsupportedError, match="action 'a' is a Python callable"):
         write_hddl(problem)
+
+
+def test_the_examples_of_the_documentation() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "hddl-costs.md").read_text(encoding="utf-8")
+    examples = [part.split("```")[0] for part in text.split("```lisp\n")[1:]]
+    assert len(examples) == 4
+    for domain, problem in zip(examples[::2], examples[1::2], strict=True):
+        assert read_hddl_text(domain, problem, strict=True).network.subtasks
+    drive = read_hddl_text(*examples[:2]).domain.actions["drive"]
+    law = action_law(drive, ("mountain",), [(2, ())], {}, unit_costs=False)
+    assert law.outcomes == ((0.4, 5.0), (0.4, 6.0), (0.1, 9.0), (0.1, 10.0))

@@ -47,7 +47,8 @@ DOMAIN = """
       (when (icy ?b) (and (broken) (not (wears ?r lucky))))
       (forall (?s - shoe) (when (wears ?r ?s) (forall (?p - place) (not (clean ?s ?p)))))))
   (:action rest :parameters () :precondition () :effect ())
-  (:predicates (at ?r - agent ?p - place) (icy ?p - place) (broken) (wears ?a - agent ?s - shoe) (clean ?s - shoe ?p - place))
+  (:predicates (at ?r - agent ?p - place) (icy ?p - place) (broken) (wears ?a - agent ?s - shoe)
+    (clean ?s - shoe ?p - place))
   (:constants home - place lucky - shoe)
   (:types walker van - agent amphibian - van amphibian - walker place shoe)
   (:requirements :typing :hierarchy))
@@ -58,7 +59,8 @@ PROBLEM = """
   (:init (at bob home) (icy MALL) (not (broken)))
   (:objects bob - walker mall - place)
   (:goal (and (at bob mall)))
-  (:htn :parameters (?p - place) :tasks (and (go bob ?p) (t2 (idle)) (rest)) :ordering (< t2 task0) :constraints (= ?p mall)))
+  (:htn :parameters (?p - place) :tasks (and (go bob ?p) (t2 (idle)) (rest)) :ordering (< t2 task0)
+    :constraints (= ?p mall)))
 """
 EMPTY_PROBLEM = "(define (problem p) (:domain d) (:htn :subtasks ()))"
 
@@ -185,9 +187,7 @@ def test_problem(courier: Problem) -> None:
         ),
     ],
 )
-def test_forms_of_networks(
-    body: str, subtasks: tuple[Subtask, ...], ordering: tuple[tuple[int, int], ...]
-) -> None:
+def test_forms_of_networks(body: str, subtasks: tuple[Subtask, ...], ordering: tuple[tuple[int, int], ...]) -> None:
     assert method(f":parameters (?x) :task (t ?x) {body}").network == TaskNetwork(subtasks, ordering)
 
 
@@ -198,7 +198,7 @@ def test_types_may_repeat_and_name_object() -> None:
 
 def test_names_of_different_kinds_may_be_equal() -> None:
     problem = read(
-        "(:types a) (:predicates (a ?a - a)) (:constants a - a) (:action a :parameters (?a - a) :effect (a ?a)) (:task b)",
+        "(:types a) (:predicates (a ?a - a)) (:constants a - a) (:action a :parameters (?a - a) :effect (a ?a))",
         "(define (problem a) (:domain d) (:init (a a)) (:htn :subtasks (a (a a))))",
     )
     assert problem.initial_state == {("a", "a")}

@@ -139,5 +139,3 @@ def test_a_byte_order_mark_is_skipped(tmp_path: Path) -> None:
 def test_limits_are_checked() -> None:
     with pytest.raises(LimitReached):
         Source("(define (domain d))", "d.hddl", Limits(deadline=0.0))
-
-

@@ -11,9 +11,11 @@ from statehtn.errors import InputError
 from statehtn.hddl.plan_format import read_plan, write_plan
 from statehtn.model import (
     Action,
+    Atom,
     Decomposition,
     Domain,
     Method,
+    Not,
     Parameter,
     Plan,
     Problem,
@@ -230,7 +232,7 @@ def test_long_plans() -> None:
         actions={"rest": Action("rest")},
         tasks={"more": Signature("more")},
         methods={
-            "go-on": Method("go-on", (), "more", (), network("rest", "more", ordering=((0, 1),))),
+            "go-on": Method("go-on", (), "more", (), network("rest", "more", ordering=((0, 1),)), Not(Atom("late"))),
             "end": Method("end", (), "more", ()),
         },
     )

@@ -339,21 +339,3 @@ def test_quantified_variables_hide_outer_ones() -> None:
     )
     assert validate(problem, Plan((Step("do", ("a",)),), (0,)))
     assert validate(problem, Plan((Step("do", ("a",)),), (0,))).expected_cost == 1  # no costs: units
-
-
-def test_deep_and_long_plans_do_not_exhaust_the_stack() -> None:
-    length = 5000
-    many = Domain(
-        "d",
-        actions={"do": Action("do", effects=adds("p"), precondition=TRUE)},
-        tasks={"more": Signature("more")},
-        methods=named(
-            Method("go-on", (), "more", (), network("do", "more"), Or((atom("p"), Not(atom("p"))))),
-            Method("end", (), "more", ()),
-        ),
-    )
-    tree = node("more", "end")
-    for index in reversed(range(length)):
-        tree = node("more", "go-on", index, tree)
-    problem = Problem("p", many, network=network("more"))
-    assert validate(problem, Plan((Step("do"),) * length, (tree,)))

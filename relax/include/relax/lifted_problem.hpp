@@ -52,6 +52,7 @@ struct LiftedAction {
     Formula precondition;
     std::vector<LiftedEffect> effects;
     std::vector<LiftedCostCondition> cost_conditions;
+    bool is_artificial = false;  // a method precondition or the goal: left out where it is trivially true
 };
 
 struct LiftedTask {

@@ -17,13 +17,13 @@ TOTAL_COST = "total-cost"
 Branches = tuple[tuple[Expression, Expression], ...]
 
 _NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e([+-]?[0-9]{1,3}))?|[+-]?[0-9]+/0*[1-9][0-9]*", re.ASCII)
-MAX_DIGITS = 1000
+MAX_DIGITS = 2000
 
 
 def read_number(text: str) -> Fraction | None:
     """Return the exact value of `3`, `-0.5`, `.5`, `1e-3` or `1/3`; None for anything else.
 
-    Numbers of more than 1000 characters and exponents of more than three digits are none.
+    Numbers of more than 2000 characters and exponents of more than three digits are none.
     """
     return Fraction(text) if len(text) <= MAX_DIGITS and _NUMBER.fullmatch(text) else None
 

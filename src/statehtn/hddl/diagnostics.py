@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import warnings
 from collections.abc import Iterable
 
@@ -62,7 +61,10 @@ class Reporter:
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """Return the message that a name is not declared, with the most similar name that is."""
     message = f"unknown {kind} '{shortened(name)}'"
-    if len(name) > 60:  # difflib takes quadratic time
+    candidates = list(known)
+    if len(name) > 60 or len(candidates) > 5000:  # difflib would take seconds
         return message
-    close = difflib.get_close_matches(name, known, n=1)
+    import difflib  # only for errors: it takes 5 ms
+
+    close = difflib.get_close_matches(name, candidates, n=1)
     return f"{message}; did you mean '{close[0]}'?" if close else message

@@ -65,9 +65,15 @@ class Fields:
 
 
 def section_name(source: Source, start: int) -> str:
-    """Return the first word of a section; empty where it starts with a parenthesis."""
+    """Return the first word of a section.
+
+    Raises:
+        InputError: it starts with a parenthesis.
+    """
     word = source.tokens[start + 1]
-    return "" if word == "(" else word
+    if word == "(":
+        raise source.error("expected a section such as '(:action ...)', found '(('", start)
+    return word
 
 
 def read_header(source: Source, kind: str, reporter: Reporter) -> str:

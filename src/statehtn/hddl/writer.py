@@ -174,7 +174,17 @@ def _method(method: Method) -> Iterator[str]:
 
 
 def _network(network: TaskNetwork) -> Iterator[str]:
-    """Yield the keywords of a network; a chain is written by the order of its subtasks."""
+    """Yield the keywords of a network."""
+    if not network.subtasks:
+        yield "    :subtasks ()"
+    else:
+        yield from _ordered(network)
+    if network.constraints != TRUE:
+        yield f"    :constraints {_formula(network.constraints)}"
+
+
+def _ordered(network: TaskNetwork) -> Iterator[str]:
+    """Yield subtasks and their order; a chain is written by the order in which they stand."""
     subtasks = network.subtasks
     is_chain = network.ordering == tuple((i, i + 1) for i in range(len(subtasks) - 1))
     yield "    :ordered-subtasks (and" if is_chain else "    :subtasks (and"
@@ -184,8 +194,6 @@ def _network(network: TaskNetwork) -> Iterator[str]:
         yield "    :ordering (and"
         yield from (f"      (< {subtasks[before].label} {subtasks[after].label})" for before, after in network.ordering)
         yield "    )"
-    if network.constraints != TRUE:
-        yield f"    :constraints {_formula(network.constraints)}"
 
 
 def _formula(formula: Formula) -> str:

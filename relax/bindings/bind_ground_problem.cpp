@@ -1,0 +1,93 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bindings.hpp"
+#include "python_limits.hpp"
+#include "relax/ground_problem.hpp"
+#include "relax/grounder.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using relax::GroundProblem;
+
+namespace {
+
+// Expose a row of a table as a list.
+template <auto Table>
+auto row(const GroundProblem& problem, std::size_t index) {
+    const auto& rows = problem.*Table;
+    if (index >= rows.size()) {
+        throw std::out_of_range("index out of range");
+    }
+    const auto values = rows[index];
+    return std::vector(values.begin(), values.end());
+}
+
+nb::object ground(const relax::LiftedProblem& problem, std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
+    relax::Limits limits = python_limits(seconds, memory_bytes);
+    std::variant<GroundProblem, relax::StopReason, relax::TooManyCasesOf> result;
+    {
+        const nb::gil_scoped_release no_gil;
+        result = relax::ground(problem, limits);
+    }
+    if (auto* ground = std::get_if<GroundProblem>(&result)) {
+        return nb::cast(std::move(*ground));
+    }
+    if (const auto* reason = std::get_if<relax::StopReason>(&result)) {
+        return nb::cast(*reason);
+    }
+    const auto& many = std::get<relax::TooManyCasesOf>(result);
+    return nb::cast(std::tuple(many.action, many.arguments));
+}
+
+}  // namespace
+
+void bind_ground_problem(nb::module_& module) {
+    nb::enum_<relax::StopReason>(module, "StopReason")
+        .value("TimeLimit", relax::StopReason::TimeLimit)
+        .value("MemoryLimit", relax::StopReason::MemoryLimit)
+        .value("Interrupted", relax::StopReason::Interrupted);
+
+    nb::class_<GroundProblem>(module, "GroundProblem")
+        .def_prop_ro("fact_count", &GroundProblem::fact_count)
+        .def_prop_ro("action_count", &GroundProblem::action_count)
+        .def_prop_ro("compound_count", &GroundProblem::compound_count)
+        .def_prop_ro("method_count", &GroundProblem::method_count)
+        .def_ro("fact_predicate", &GroundProblem::fact_predicate)
+        .def_ro("effect_begin", &GroundProblem::effect_begin)
+        .def_ro("action_schema", &GroundProblem::action_schema)
+        .def_ro("compound_schema", &GroundProblem::compound_schema)
+        .def_ro("method_task", &GroundProblem::method_task)
+        .def_ro("method_schema", &GroundProblem::method_schema)
+        .def_ro("initial_state", &GroundProblem::initial_state)
+        .def_ro("initial_task", &GroundProblem::initial_task)
+        .def_ro("solvable", &GroundProblem::solvable)
+        .def("method_is_choice",
+             [](const GroundProblem& problem, std::size_t method) { return bool(problem.method_is_choice.at(method)); })
+        .def("fact_arguments", &row<&GroundProblem::fact_arguments>)
+        .def("preconditions", &row<&GroundProblem::preconditions>)
+        .def("negative_preconditions", &row<&GroundProblem::negative_preconditions>)
+        .def("action_arguments", &row<&GroundProblem::action_arguments>)
+        .def("action_cost_parts", &row<&GroundProblem::action_cost_parts>)
+        .def("effect_conditions", &row<&GroundProblem::effect_conditions>)
+        .def("effect_negative_conditions", &row<&GroundProblem::effect_negative_conditions>)
+        .def("effect_adds", &row<&GroundProblem::effect_adds>)
+        .def("effect_deletes", &row<&GroundProblem::effect_deletes>)
+        .def("compound_arguments", &row<&GroundProblem::compound_arguments>)
+        .def("method_arguments", &row<&GroundProblem::method_arguments>)
+        .def("method_subtasks", &row<&GroundProblem::method_subtasks>)
+        .def("method_positions", &row<&GroundProblem::method_positions>)
+        .def("method_ordering", &row<&GroundProblem::method_ordering>);
+
+    module.def("ground", &ground, "problem"_a, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none());
+}

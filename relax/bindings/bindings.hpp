@@ -1,0 +1,10 @@
+#ifndef RELAX_BINDINGS_BINDINGS_HPP
+#define RELAX_BINDINGS_BINDINGS_HPP
+
+#include <nanobind/nanobind.h>
+
+void bind_lifted_problem(nanobind::module_& module);
+void bind_ground_problem(nanobind::module_& module);
+void bind_find_plans(nanobind::module_& module);
+
+#endif

@@ -1,0 +1,8 @@
+#include "bindings.hpp"
+
+NB_MODULE(_relax, module) {
+    module.doc() = "The compiled core of statehtn: grounding, heuristics and search.";
+    bind_lifted_problem(module);
+    bind_ground_problem(module);
+    bind_find_plans(module);
+}

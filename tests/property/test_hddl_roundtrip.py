@@ -1,0 +1,223 @@
+"""Writing a problem and reading it again gives an equal problem, for random problems with all features."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from statehtn.hddl import read_hddl_text, write_hddl
+from statehtn.hddl.cost_reader import constant_value
+from statehtn.model import (
+    TRUE,
+    Action,
+    And,
+    Arithmetic,
+    Atom,
+    CostBlock,
+    Domain,
+    Effect,
+    Equals,
+    Exists,
+    Expression,
+    Forall,
+    Formula,
+    FunctionTerm,
+    Method,
+    Not,
+    Number,
+    OfType,
+    Or,
+    Parameter,
+    Problem,
+    Signature,
+    Subtask,
+    TaskNetwork,
+    TypeHierarchy,
+)
+
+KINDS = ("t0", "t1", "t2", "t3")
+NUMBERS = st.one_of(
+    st.integers(0, 10**6).map(Fraction),
+    st.decimals(0, 1000, places=4).map(Fraction),
+    st.floats(0, 1e9, allow_nan=False).map(Fraction),
+    st.fractions(0, 100, max_denominator=30),
+)
+
+
+@dataclass(frozen=True)
+class Names:
+    """What may be used at some place of a problem."""
+
+    types: TypeHierarchy
+    objects: dict[str, str]
+    predicates: dict[str, Signature]
+    functions: dict[str, Signature]
+    tasks: dict[str, Signature]
+    variables: tuple[Parameter, ...] = ()
+
+    def inside(self, parameters: tuple[Parameter, ...]) -> Names:
+        return Names(
+            self.types, self.objects, self.predicates, self.functions, self.tasks, (*self.variables, *parameters)
+        )
+
+    def terms(self, types: tuple[str, ...]) -> list[str]:
+        """List the variables and objects that an argument of these types allows."""
+        variables = [variable.name for variable in self.variables if set(variable.types) & set(types)]
+        return variables + [name for name, kind in self.objects.items() if self.types.is_subtype(kind, types)]
+
+
+@st.composite
+def parameters(draw: st.DrawFn, prefix: str, most: int = 3) -> tuple[Parameter, ...]:
+    kinds = st.lists(st.sampled_from((*KINDS, "object")), min_size=1, max_size=2, unique=True)
+    drawn = draw(st.lists(kinds, max_size=most))
+    return tuple(Parameter(f"?{prefix}{index}", tuple(types)) for index, types in enumerate(drawn))
+
+
+@st.composite
+def signatures(draw: st.DrawFn, prefix: str, most: int = 3) -> dict[str, Signature]:
+    drawn = draw(st.lists(parameters("x", 2), min_size=1, max_size=most))
+    return {f"{prefix}{index}": Signature(f"{prefix}{index}", found) for index, found in enumerate(drawn)}
+
+
+@st.composite
+def arguments(draw: st.DrawFn, names: Names, declared: dict[str, Signature]) -> tuple[str, ...] | None:
+    """Draw a name and arguments that it allows; None where there are none."""
+    signature = draw(st.sampled_from(list(declared.values())))
+    choices = [names.terms(parameter.types) for parameter in signature.parameters]
+    return (signature.name, *(draw(st.sampled_from(terms)) for terms in choices)) if all(choices) else None
+
+
+@st.composite
+def formulas(draw: st.DrawFn, names: Names, depth: int = 3, constraint: bool = False) -> Formula:
+    everything = [variable.name for variable in names.variables] + list(names.objects)
+    form = draw(
+        st.sampled_from(("atom", "equals", "type", "not", "and", "or", "exists", "forall")[: 8 if depth else 3])
+    )
+    if constraint and form in ("atom", "exists", "forall"):
+        form = "equals"
+    inner = formulas(names, depth - 1, constraint)
+    match form:
+        case "atom":
+            found = draw(arguments(names, names.predicates))
+            return Atom(found[0], found[1:]) if found else TRUE
+        case "equals" | "type" if not everything:
+            return TRUE
+        case "equals":
+            return Equals(draw(st.sampled_from(everything)), draw(st.sampled_from(everything)))
+        case "type":
+            types = draw(st.lists(st.sampled_from(KINDS), min_size=1, max_size=2, unique=True))
+            return OfType(draw(st.sampled_from(everything)), tuple(types))
+        case "not":
+            return Not(draw(inner))
+        case "and" | "or":
+            operands = tuple(draw(st.lists(inner, max_size=3)))
+            return And(operands) if form == "and" else Or(operands)
+    bound = draw(parameters(f"q{depth}"))
+    body = draw(formulas(names.inside(bound), depth - 1))
+    return Exists(bound, body) if form == "exists" else Forall(bound, body)
+
+
+@st.composite
+def expressions(draw: st.DrawFn, names: Names, depth: int = 2) -> Expression:
+    form = draw(st.sampled_from(("number", "number", "function", "+", "-", "*")[: 6 if depth else 3]))
+    if form == "number":
+        return Number(draw(NUMBERS))
+    if form == "function":
+        found = draw(arguments(names, names.functions))
+        return FunctionTerm(found[0], found[1:]) if found else Number(Fraction(1))
+    return Arithmetic(form, tuple(draw(st.lists(expressions(names, depth - 1), min_size=1, max_size=3))))
+
+
+@st.composite
+def costs(draw: st.DrawFn, names: Names) -> Expression:
+    """Draw an expression that is not a negative constant."""
+    cost = draw(expressions(names))
+    return Number(Fraction(0)) if (constant_value(cost) or 0) < 0 else cost
+
+
+@st.composite
+def cost_blocks(draw: st.DrawFn, names: Names) -> CostBlock:
+    bound = draw(parameters("b", 1))
+    inner = names.inside(bound)
+    condition = draw(st.one_of(st.just(TRUE), formulas(inner, 1)))
+    weights = draw(st.lists(st.integers(1, 9), min_size=1, max_size=3))
+    probabilities: list[Expression] = [Number(Fraction(weight, sum(weights))) for weight in weights]
+    if draw(st.booleans()) and (found := draw(arguments(inner, inner.functions))):
+        probabilities = [FunctionTerm(found[0], found[1:]), *probabilities[1:]]
+    return CostBlock(tuple((probability, draw(costs(inner))) for probability in probabilities), condition, bound)
+
+
+@st.composite
+def effects(draw: st.DrawFn, names: Names) -> list[Effect]:
+    bound = draw(parameters("e", 1))
+    found = draw(arguments(names.inside(bound), names.predicates))
+    if not found:
+        return []
+    condition = draw(st.one_of(st.just(TRUE), formulas(names.inside(bound), 1)))
+    return [Effect(Atom(found[0], found[1:]), draw(st.booleans()), condition, bound)]
+
+
+@st.composite
+def networks(draw: st.DrawFn, names: Names) -> TaskNetwork:
+    found = [task for task in draw(st.lists(arguments(names, names.tasks), max_size=4)) if task]
+    subtasks = tuple(Subtask(f"s{index}", task[0], task[1:]) for index, task in enumerate(found))
+    pairs = [(i, j) for i in range(len(found)) for j in range(i + 1, len(found))]
+    ordering = draw(st.lists(st.sampled_from(pairs), unique=True)) if pairs else []
+    constraints = draw(st.one_of(st.just(TRUE), formulas(names, 2, constraint=True)))
+    return TaskNetwork(subtasks, tuple(ordering), constraints)
+
+
+@st.composite
+def domains(draw: st.DrawFn) -> tuple[Domain, Names]:
+    above = [("object",), (), ("t0",), ("t0", "t1")]
+    types = TypeHierarchy({kind: draw(st.sampled_from(above[: index + 1])) for index, kind in enumerate(KINDS)})
+    constants = {f"c{index}": kind for index, kind in enumerate(draw(st.lists(st.sampled_from(KINDS), max_size=2)))}
+    predicates, functions, compound = draw(signatures("p")), draw(signatures("f")), draw(signatures("task"))
+    primitive = draw(signatures("act", 2))
+    names = Names(types, constants, predicates, functions, {**compound, **primitive})
+    actions = {}
+    for name, signature in primitive.items():
+        inner = names.inside(signature.parameters)
+        drawn = [effect for some in draw(st.lists(effects(inner), max_size=3)) for effect in some]
+        blocks = tuple(draw(st.lists(cost_blocks(inner), max_size=2)))
+        actions[name] = Action(name, signature.parameters, draw(formulas(inner)), tuple(drawn), blocks)
+    methods = {}
+    for index in range(draw(st.integers(0, 2))):
+        bound = draw(parameters("m"))
+        inner = names.inside(bound)
+        if head := draw(arguments(inner, compound)):
+            method = Method(f"m{index}", bound, head[0], head[1:], draw(networks(inner)), draw(formulas(inner)))
+            methods[method.name] = method
+    return Domain("d", types, constants, predicates, functions, compound, actions, methods), names
+
+
+@st.composite
+def problems(draw: st.DrawFn) -> Problem:
+    domain, names = draw(domains())
+    objects = {f"o{index}": kind for index, kind in enumerate(draw(st.lists(st.sampled_from(KINDS), max_size=3)))}
+    ground = Names(names.types, {**names.objects, **objects}, names.predicates, names.functions, names.tasks)
+    bound = draw(parameters("h", 2))
+    facts = frozenset(fact for fact in draw(st.lists(arguments(ground, ground.predicates), max_size=5)) if fact)
+    keys = {key for key in draw(st.lists(arguments(ground, ground.functions), max_size=4)) if key}
+    values = {key: draw(NUMBERS) * draw(st.sampled_from((1, -1))) for key in sorted(keys)}
+    network = draw(networks(ground.inside(bound)))
+    return Problem("p", domain, objects, bound, network, facts, values, draw(formulas(ground)))
+
+
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@given(problems())
+def test_reading_what_was_written_gives_the_same_problem(problem: Problem) -> None:
+    domain, text = write_hddl(problem)
+    again = read_hddl_text(domain, text, strict=problem_is_complete(problem))
+    assert again == problem
+    assert write_hddl(again) == (domain, text)
+
+
+def problem_is_complete(problem: Problem) -> bool:
+    """Tell whether no block leaves some probability over, which would be a warning."""
+    blocks = [block for action in problem.domain.actions.values() for block in action.costs]
+    sums = [[constant_value(probability) for probability, _ in block.branches] for block in blocks]
+    return all(None in found or sum(value for value in found if value is not None) == 1 for found in sums)

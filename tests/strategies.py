@@ -1,0 +1,264 @@
+"""Random small problems, for Hypothesis: everything of the language at a size that can be solved exhaustively.
+
+Problems are lifted, over one to three objects of one or two types. Recursion pays for itself nearly always (a recursive method
+has an action that costs something), so that an optimum exists, but it need not end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from hypothesis import strategies as st
+
+from statehtn.model import (
+    TRUE,
+    Action,
+    And,
+    Arithmetic,
+    Atom,
+    CostBlock,
+    Domain,
+    Effect,
+    Equals,
+    Exists,
+    Expression,
+    Forall,
+    Formula,
+    FunctionTerm,
+    Method,
+    Not,
+    Number,
+    Or,
+    Parameter,
+    Problem,
+    Signature,
+    Subtask,
+    TaskNetwork,
+    TypeHierarchy,
+)
+from statehtn.risk import Utility, utility_for
+
+Draw = st.DrawFn
+COSTS = tuple(map(Fraction, ("1", "2", "3", "0.5", "2.5", "10", "0")))
+TENTHS = tuple(Fraction(i, 10) for i in range(1, 10))
+FUNCTION = "price"
+ORDERS = ("total", "partial", "none")
+
+
+@dataclass(frozen=True)
+class Names:
+    """What formulas and networks are made of."""
+
+    types: tuple[str, ...]
+    predicates: dict[str, Signature]
+    objects: dict[str, str]
+
+    def parameters(self, draw: Draw, most: int, prefix: str) -> tuple[Parameter, ...]:
+        count = draw(st.integers(0, most))
+        return tuple(Parameter(f"?{prefix}{i}", (draw(st.sampled_from(self.types)),)) for i in range(count))
+
+    def term(self, draw: Draw, kind: str, scope: tuple[Parameter, ...]) -> str:
+        """A variable or an object for a parameter of this type; mostly one that fits, rarely one that may not."""
+        fitting = [parameter.name for parameter in scope if parameter.types[0] == kind or kind == "thing"]
+        fitting += [name for name, its in self.objects.items() if its == kind or kind == "thing"] if not fitting else []
+        others = [parameter.name for parameter in scope] or list(self.objects)
+        return draw(st.sampled_from(fitting or others))
+
+    def atom(self, draw: Draw, scope: tuple[Parameter, ...]) -> Atom:
+        predicate = draw(st.sampled_from(list(self.predicates.values())))
+        return Atom(predicate.name, tuple(self.term(draw, p.types[0], scope) for p in predicate.parameters))
+
+    def literal(self, draw: Draw, scope: tuple[Parameter, ...]) -> Formula:
+        atom = self.atom(draw, scope)
+        return Not(atom) if chance(draw, 0.3) else atom
+
+    def condition(self, draw: Draw, scope: tuple[Parameter, ...]) -> Formula:
+        """A literal, or now and then something else that HDDL allows."""
+        kind = draw(st.sampled_from(("literal",) * 6 + ("or", "and", "not and", "exists", "forall", "equals", "not equals")))
+        if kind in ("exists", "forall"):
+            bound = (Parameter("?q", (draw(st.sampled_from(self.types)),)),)
+            body = self.literal(draw, scope + bound)
+            return Exists(bound, body) if kind == "exists" else Forall(bound, body)
+        if kind.endswith("equals") and len(scope) > 1:
+            equal = Equals(scope[0].name, scope[1].name)
+            return equal if kind == "equals" else Not(equal)
+        if kind in ("or", "and", "not and"):
+            pair = (self.literal(draw, scope), self.literal(draw, scope))
+            return Or(pair) if kind == "or" else And(pair) if kind == "and" else Not(And(pair))
+        return self.literal(draw, scope)
+
+    def precondition(self, draw: Draw, scope: tuple[Parameter, ...], weights: tuple[int, ...]) -> Formula:
+        count = draw(st.sampled_from(weights))
+        conditions = tuple(self.condition(draw, scope) for _ in range(count))
+        return TRUE if not conditions else conditions[0] if len(conditions) == 1 else And(conditions)
+
+
+def chance(draw: Draw, probability: float) -> bool:
+    """True with about this probability; false is the simpler choice."""
+    return draw(st.integers(0, 99)) >= 100 - round(100 * probability)
+
+
+@st.composite
+def problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
+    """A problem; `orders` are the kinds of task networks in it."""
+    two_types = chance(draw, 0.5)
+    types = ("thing", "place") if two_types else ("thing",)
+    parents = {"thing": ("object",), "place": ("thing",)} if two_types else {"thing": ("object",)}
+    objects = {f"o{i}": draw(st.sampled_from(types)) for i in range(draw(st.integers(1, 3)))}
+    arities = draw(st.lists(st.sampled_from((0, 0, 1, 1, 2)), min_size=3, max_size=4))
+    predicates = {}
+    for i, arity in enumerate(arities):
+        parameters = tuple(Parameter(f"?x{j}", (draw(st.sampled_from(types)),)) for j in range(arity))
+        predicates[f"p{i}"] = Signature(f"p{i}", parameters)
+    names = Names(types, predicates, objects)
+    functions = {FUNCTION: Signature(FUNCTION, (Parameter("?x0", ("thing",)),))}
+
+    costly = not chance(draw, 0.1)
+    actions = {f"a{i}": draw(action(names, f"a{i}", costly)) for i in range(draw(st.integers(2, 5)))}
+    count = draw(st.integers(2, 4))
+    tasks = {f"t{i}": Signature(f"t{i}", names.parameters(draw, 1, "y")) for i in range(count)}
+    methods = {}
+    for task in tasks.values():
+        for i in range(draw(st.integers(1, 3))):
+            name = f"{task.name}-m{i}"
+            methods[name] = draw(method(names, name, task, actions, tasks, orders))
+
+    parameters = names.parameters(draw, 1, "i") if chance(draw, 0.2) else ()
+    network = draw(task_network(names, parameters, actions, tasks, draw(st.integers(1, 3)), orders))
+    facts = [(p.name, *arguments) for p in predicates.values() for arguments in ground(p, objects, parents)]
+    initial = frozenset(fact for fact in facts if draw(st.booleans()))
+    values = {(FUNCTION, name): draw(st.sampled_from(COSTS)) for name in objects}
+    goal = names.precondition(draw, (), (0, 0, 0, 1))
+    domain = Domain("random", TypeHierarchy(parents), {}, predicates, functions, tasks, actions, methods)
+    return Problem("p", domain, objects, parameters, network, initial, values, goal)
+
+
+def ground(predicate: Signature, objects: dict[str, str], parents: dict[str, tuple[str, ...]]) -> list[tuple[str, ...]]:
+    found: list[tuple[str, ...]] = [()]
+    for parameter in predicate.parameters:
+        fitting = [name for name, kind in objects.items() if parameter.types[0] in (kind, *parents[kind])]
+        found = [(*arguments, name) for arguments in found for name in fitting]
+    return found
+
+
+@st.composite
+def action(draw: Draw, names: Names, name: str, costly: bool) -> Action:
+    parameters = names.parameters(draw, 2, "x")
+    precondition = names.precondition(draw, parameters, (0, 0, 1, 1, 2))
+    effects = tuple(draw(effect(names, parameters)) for _ in range(draw(st.integers(1, 3))))
+    costs: list[CostBlock] = []
+    if costly and not chance(draw, 0.15):
+        costs.append(CostBlock(draw(branches(parameters))))
+        if chance(draw, 0.25):
+            bound = (Parameter("?w", (draw(st.sampled_from(names.types)),)),) if chance(draw, 0.2) else ()
+            condition = names.condition(draw, parameters + bound)
+            costs.append(CostBlock(draw(branches(parameters + bound)), condition, bound))
+    return Action(name, parameters, precondition, effects, tuple(costs))
+
+
+@st.composite
+def effect(draw: Draw, names: Names, parameters: tuple[Parameter, ...]) -> Effect:
+    bound = (Parameter("?u", (draw(st.sampled_from(names.types)),)),) if chance(draw, 0.1) else ()
+    scope = bound + parameters
+    condition = names.condition(draw, scope) if chance(draw, 0.25) else TRUE
+    return Effect(names.atom(draw, scope), not chance(draw, 0.35), condition, bound)
+
+
+@st.composite
+def branches(draw: Draw, parameters: tuple[Parameter, ...]) -> tuple[tuple[Expression, Expression], ...]:
+    """A certain cost, or one of two or three; what is missing to probability 1 costs nothing."""
+    first, second, third = (draw(cost(parameters)) for _ in range(3))
+    p = draw(st.sampled_from(TENTHS))
+    match draw(st.sampled_from(("certain", "two", "two", "three", "rest"))):
+        case "certain":
+            return ((Number(Fraction(1)), first),)
+        case "two":
+            return ((Number(p), first), (Number(1 - p), second))
+        case "three":
+            return ((Number(p / 2), first), (Number(p / 2), second), (Number(1 - p), third))
+    return ((Number(p), first),)
+
+
+@st.composite
+def cost(draw: Draw, parameters: tuple[Parameter, ...]) -> Expression:
+    number = Number(draw(st.sampled_from(COSTS)))
+    if parameters and chance(draw, 0.2):
+        term = FunctionTerm(FUNCTION, (draw(st.sampled_from(parameters)).name,))
+        return term if chance(draw, 0.5) else Arithmetic(draw(st.sampled_from("+*")), (term, number))
+    return number
+
+
+@st.composite
+def method(
+    draw: Draw,
+    names: Names,
+    name: str,
+    task: Signature,
+    actions: dict[str, Action],
+    tasks: dict[str, Signature],
+    orders: tuple[str, ...],
+) -> Method:
+    parameters = task.parameters + (names.parameters(draw, 1, "z") if chance(draw, 0.5) else ())
+    precondition = names.precondition(draw, parameters, (0, 0, 0, 1, 1, 2))
+    size = draw(st.sampled_from((0, 1, 1, 2, 2, 3)))
+    later = {other: signature for other, signature in tasks.items() if other > task.name}
+    recursive = chance(draw, 0.3)
+    network = draw(task_network(names, parameters, actions, tasks if recursive else later, size, orders))
+    if recursive and not chance(draw, 0.05):
+        network = pay_for_recursion(network, actions, task.name)
+    return Method(name, parameters, task.name, tuple(p.name for p in task.parameters), network, precondition)
+
+
+def pay_for_recursion(network: TaskNetwork, actions: dict[str, Action], task: str) -> TaskNetwork:
+    """Drop the subtasks that lead back to the task, or one that was before it, if no action of the network costs something."""
+    if any(subtask.task in actions and is_costly(actions[subtask.task], actions) for subtask in network.subtasks):
+        return network
+    kept = [i for i, subtask in enumerate(network.subtasks) if subtask.task in actions or subtask.task > task]
+    number = {old: new for new, old in enumerate(kept)}
+    ordering = tuple((number[i], number[j]) for i, j in network.ordering if i in number and j in number)
+    return TaskNetwork(tuple(network.subtasks[i] for i in kept), ordering)
+
+
+def is_costly(action: Action, actions: dict[str, Action]) -> bool:
+    """Tell whether the action surely costs something."""
+    if not any(other.costs for other in actions.values()):
+        return True
+    return any(
+        block.condition == TRUE and any(isinstance(cost, Number) and cost.value > 0 for _, cost in block.branches)
+        for block in action.costs
+    )
+
+
+@st.composite
+def task_network(
+    draw: Draw,
+    names: Names,
+    scope: tuple[Parameter, ...],
+    actions: dict[str, Action],
+    tasks: dict[str, Signature],
+    size: int,
+    orders: tuple[str, ...],
+) -> TaskNetwork:
+    subtasks: list[Subtask] = []
+    for i in range(size):
+        if subtasks and chance(draw, 0.1):  # twice the same
+            subtasks.append(Subtask(f"s{i}", subtasks[-1].task, subtasks[-1].arguments))
+            continue
+        compound = bool(tasks) and chance(draw, 0.5)
+        chosen = draw(st.sampled_from(list(tasks.values() if compound else actions.values())))
+        arguments = tuple(names.term(draw, parameter.types[0], scope) for parameter in chosen.parameters)
+        subtasks.append(Subtask(f"s{i}", chosen.name, arguments))
+    pairs = [(i, j) for j in range(size) for i in range(j)]
+    order = draw(st.sampled_from(orders))
+    if order == "partial":
+        pairs = [pair for pair in pairs if draw(st.booleans())]
+    return TaskNetwork(tuple(subtasks), tuple(pairs) if order != "none" else ())
+
+
+def utilities() -> st.SearchStrategy[Utility]:
+    """Agents of every attitude, from nearly neutral to extreme."""
+    return st.one_of(
+        st.just(utility_for("neutral")),
+        st.builds(utility_for, st.sampled_from(("averse", "seeking")), st.sampled_from((0.1, 0.9, 0.001, 0.5, 3.0))),
+    )
