@@ -364,7 +364,7 @@ bool Reachability::apply_effects(std::uint32_t schema, std::span<const ObjectId>
 }
 
 // Make the instances of all methods of a compound task instance.
-void Reachability::expand(const TaskInstance& instance) {
+void Reachability::expand(TaskInstance instance) {
     const auto objects = instances(instance.task)[instance.tuple];
     const std::vector<ObjectId> arguments(objects.begin(), objects.end());
     for (const std::uint32_t schema : methods_of_[instance.task - problem_.actions.size()]) {

@@ -84,7 +84,7 @@ private:
     void fire(std::size_t rule, std::span<const ObjectId> binding);
     bool try_action(std::uint32_t schema, TupleId candidate);
     bool apply_effects(std::uint32_t schema, std::span<const ObjectId> arguments);
-    void expand(const TaskInstance& instance);
+    void expand(TaskInstance instance);
     void need(const TaskInstance& instance);
 
     bool has_fluent(const Formula& formula) const;
