@@ -17,7 +17,9 @@ from statehtn.model.formula import free_variables
 from statehtn.risk import Utility
 from tests.naive_semantics import Bindings, Semantics, State
 
-Path = tuple[int, ...]  # of a task in the decomposition tree: the index of each ancestor among its siblings, then its own
+Path = tuple[
+    int, ...
+]  # of a task in the decomposition tree: the index of each ancestor among its siblings, then its own
 CONDITION = -1  # the last index of the path of a method's precondition
 
 
@@ -125,7 +127,7 @@ def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 3000
     Raises:
         GaveUp: more than so many nodes were expanded.
     """
-    space = Space(problem)
+    space, canonical = Space(problem), Canonical()
     certain: dict[str, float] = {}
 
     def due(pending: Pending) -> float:
@@ -166,7 +168,7 @@ def all_plans(problem: Problem, most: int = 100_000) -> list[Plan]:
     Raises:
         GaveUp: more than `most` nodes were expanded.
     """
-    space = Space(problem)
+    space, canonical = Space(problem), Canonical()
     pending = [(root, ()) for root in space.roots()]
     seen = set()
     plans: dict[tuple[Step, ...], Plan] = {}
@@ -233,19 +235,30 @@ def replaced(network: Iterable[Pending], old: Pending, parts: list[Pending]) -> 
     return (*rest, *parts)
 
 
-def canonical(network: tuple[Pending, ...]) -> tuple[object, ...]:
-    """A network without its paths. Equal values mean equal networks; equal networks nearly always have equal values."""
-    by_path = {pending.path: pending for pending in network}
-    known: dict[Path, str] = {}
+class Canonical:
+    """Networks without their paths. Equal values mean equal networks; equal networks nearly always have equal values."""
 
-    def history(path: Path) -> str:
-        if path not in known:
-            known[path] = f"{by_path[path].label} after {sorted(map(history, by_path[path].before))}"
-        return known[path]
+    def __init__(self) -> None:
+        self.numbers: dict[object, int] = {}  # of labels and of histories, so that histories stay short
 
-    def future(path: Path) -> list[str]:
-        return sorted(history(other.path) for other in network if path in other.before)
+    def __call__(self, network: tuple[Pending, ...]) -> tuple[object, ...]:
+        by_path = {pending.path: pending for pending in network}
+        known: dict[Path, int] = {}
 
-    ordered = sorted(network, key=lambda pending: (history(pending.path), future(pending.path)))
-    number = {pending.path: index for index, pending in enumerate(ordered)}
-    return tuple((pending.label, frozenset(number[path] for path in pending.before)) for pending in ordered)
+        def history(path: Path) -> int:
+            if path not in known:
+                known[path] = self.number((by_path[path].label, *sorted(map(history, by_path[path].before))))
+            return known[path]
+
+        future: dict[Path, list[int]] = {path: [] for path in by_path}
+        for pending in network:
+            for path in pending.before:
+                future[path].append(history(pending.path))
+        ordered = sorted(network, key=lambda pending: (history(pending.path), sorted(future[pending.path])))
+        position = {pending.path: index for index, pending in enumerate(ordered)}
+        return tuple(
+            (self.number(pending.label), frozenset(position[path] for path in pending.before)) for pending in ordered
+        )
+
+    def number(self, value: object) -> int:
+        return self.numbers.setdefault(value, len(self.numbers))

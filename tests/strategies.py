@@ -75,7 +75,9 @@ class Names:
 
     def condition(self, draw: Draw, scope: tuple[Parameter, ...]) -> Formula:
         """A literal, or now and then something else that HDDL allows."""
-        kind = draw(st.sampled_from(("literal",) * 6 + ("or", "and", "not and", "exists", "forall", "equals", "not equals")))
+        kind = draw(
+            st.sampled_from(("literal",) * 6 + ("or", "and", "not and", "exists", "forall", "equals", "not equals"))
+        )
         if kind in ("exists", "forall"):
             bound = (Parameter("?q", (draw(st.sampled_from(self.types)),)),)
             body = self.literal(draw, scope + bound)

@@ -76,7 +76,9 @@ void bind_find_plans(nb::module_& module) {
         .value("Blind", relax::HeuristicKind::Blind)
         .value("Tdg", relax::HeuristicKind::Tdg)
         .value("HMax", relax::HeuristicKind::HMax)
-        .value("LmCut", relax::HeuristicKind::LmCut);
+        .value("LmCut", relax::HeuristicKind::LmCut)
+        .value("Add", relax::HeuristicKind::Add)
+        .value("Ff", relax::HeuristicKind::Ff);
     nb::enum_<relax::SearchAlgorithm>(module, "SearchAlgorithm")
         .value("AStar", relax::SearchAlgorithm::AStar)
         .value("Weighted", relax::SearchAlgorithm::Weighted)
@@ -95,7 +97,8 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("algorithm", &relax::SearchOptions::algorithm)
         .def_rw("weight", &relax::SearchOptions::weight)
         .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)
-        .def_rw("inherit_h", &relax::SearchOptions::inherit_h);
+        .def_rw("inherit_h", &relax::SearchOptions::inherit_h)
+        .def_rw("upper_bound", &relax::SearchOptions::upper_bound);
 
     nb::class_<relax::SearchStatistics>(module, "SearchStatistics")
         .def_ro("expanded", &relax::SearchStatistics::expanded)

@@ -53,6 +53,20 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
             True,
             "landmark cuts on the relaxed model (the paper's Algorithm 5; Helmert and Domshlak 2009)",
         ),
+        "add": HeuristicInfo(
+            _relax.HeuristicKind.Add,
+            False,
+            False,
+            True,
+            "additive heuristic on the relaxed model, for greedy search (Bonet and Geffner 2001)",
+        ),
+        "ff": HeuristicInfo(
+            _relax.HeuristicKind.Ff,
+            False,
+            False,
+            True,
+            "relaxed plan on the relaxed model, for greedy search (Hoffmann and Nebel 2001)",
+        ),
     }
 )
 
