@@ -20,9 +20,9 @@ help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*##/\1:/p' Makefile | awk -F ': *' '{ printf "  make %-12s %s\n", $$1, $$2 }'
 
 demo: $(VENV)/.installed  ## plan for a vehicle that avoids, ignores and seeks risk
-	@$(RUN) -m statehtn plan $(AV) --attitude averse --alpha 0.9
-	@$(RUN) -m statehtn plan $(AV) --attitude neutral
-	@$(RUN) -m statehtn plan $(AV) --attitude seeking --alpha 0.9
+	@$(RUN) -m statehtn plan $(AV) --attitude averse --alpha 0.9 && echo
+	@$(RUN) -m statehtn plan $(AV) --attitude neutral && echo
+	@$(RUN) -m statehtn plan $(AV) --attitude seeking --alpha 0.9 && echo
 	@$(RUN) examples/demo.py $(AV)
 
 test: $(VENV)/.installed  ## run the whole test suite (with more random examples where CI is set)
@@ -55,6 +55,7 @@ $(VENV)/.build-tools: pyproject.toml $(VENV)/.created
 	@touch $@
 
 $(VENV)/.installed: pyproject.toml $(CORE_SOURCES) $(VENV)/.build-tools | check-compiler
+	@echo "building the core; the first time this takes a minute or two"
 	$(PIP) install --no-build-isolation --editable '.[test]'
 	@touch $@
 

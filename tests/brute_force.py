@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import heapq
 import itertools
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
@@ -20,6 +21,7 @@ from tests.naive_semantics import Bindings, Semantics, State
 Path = tuple[
     int, ...
 ]  # of a task in the decomposition tree: the index of each ancestor among its siblings, then its own
+LARGEST_NETWORK = 20
 CONDITION = -1  # the last index of the path of a method's precondition
 
 
@@ -118,14 +120,14 @@ class Space:
             yield Node(node.state, replaced(node.network, task, parts), last)
 
 
-def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 3000) -> float | None:
+def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 5000) -> float | None:
     """The least risk cost of any plan; None if there is no plan.
 
-    Uniform-cost search, except that the part of an action's cost that is due in every state counts as soon as the action
-    is in the network: otherwise recursion could put actions into it for ever, free of charge.
+    Uniform-cost search, except that the part of an action's cost that is due in every state counts as soon as the
+    action is in the network: otherwise recursion could put actions into it for ever, free of charge.
 
     Raises:
-        GaveUp: more than so many nodes were expanded.
+        GaveUp: more than so many different nodes were generated, or a network has more than LARGEST_NETWORK tasks.
     """
     space, canonical = Space(problem), Canonical()
     certain: dict[str, float] = {}
@@ -141,24 +143,28 @@ def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 3000
                     certain[pending.label] = utility.risk_cost(law)
         return certain[pending.label]
 
-    counter = itertools.count()
-    queue = [(sum(map(due, root.network)), len(root.network), next(counter), 0.0, root) for root in space.roots()]
-    heapq.heapify(queue)
-    closed = set()
-    while queue:
-        *_, cost, node = heapq.heappop(queue)
+    generated = itertools.count()
+    queue: list[tuple[float, int, int, float, Node]] = []
+    cheapest: dict[object, float] = {}
+
+    def add(node: Node, cost: float) -> None:
         key = (node.state, canonical(node.network))
-        if key in closed:
-            continue
-        closed.add(key)
+        if cost < cheapest.get(key, math.inf):
+            cheapest[key] = cost
+            size = len(node.network)
+            heapq.heappush(queue, (cost + sum(map(due, node.network)), size, next(generated), cost, node))
+
+    for root in space.roots():
+        add(root, 0.0)
+    while queue:
+        _, size, _, cost, node = heapq.heappop(queue)
         if space.is_goal(node):
             return cost
-        if len(closed) > most_nodes:
+        if len(cheapest) > most_nodes or size > LARGEST_NETWORK:
             raise GaveUp
-        for step, successor in space.successors(node, utility):
-            total = cost + step
-            bound = total + sum(map(due, successor.network))
-            heapq.heappush(queue, (bound, len(successor.network), next(counter), total, successor))
+        if cost == cheapest[node.state, canonical(node.network)]:
+            for step, successor in space.successors(node, utility):
+                add(successor, cost + step)
     return None
 
 

@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <optional>
@@ -33,7 +34,10 @@ auto row(const GroundProblem& problem, std::size_t index) {
     return std::vector(values.begin(), values.end());
 }
 
-nb::object ground(const relax::LiftedProblem& problem, std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
+using GroundingResult = std::variant<GroundProblem, relax::StopReason, std::tuple<std::uint32_t, std::vector<relax::ObjectId>>>;
+
+// Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases.
+GroundingResult ground(const relax::LiftedProblem& problem, std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
     relax::Limits limits = python_limits(seconds, memory_bytes);
     std::variant<GroundProblem, relax::StopReason, relax::TooManyCasesOf> result;
     {
@@ -41,13 +45,13 @@ nb::object ground(const relax::LiftedProblem& problem, std::optional<double> sec
         result = relax::ground(problem, limits);
     }
     if (auto* ground = std::get_if<GroundProblem>(&result)) {
-        return nb::cast(std::move(*ground));
+        return std::move(*ground);
     }
     if (const auto* reason = std::get_if<relax::StopReason>(&result)) {
-        return nb::cast(*reason);
+        return *reason;
     }
     const auto& many = std::get<relax::TooManyCasesOf>(result);
-    return nb::cast(std::tuple(many.action, many.arguments));
+    return std::tuple(many.action, many.arguments);
 }
 
 }  // namespace
@@ -64,16 +68,19 @@ void bind_ground_problem(nb::module_& module) {
         .def_prop_ro("compound_count", &GroundProblem::compound_count)
         .def_prop_ro("method_count", &GroundProblem::method_count)
         .def_ro("fact_predicate", &GroundProblem::fact_predicate)
-        .def_ro("effect_begin", &GroundProblem::effect_begin)
         .def_ro("action_schema", &GroundProblem::action_schema)
         .def_ro("compound_schema", &GroundProblem::compound_schema)
-        .def_ro("method_task", &GroundProblem::method_task)
-        .def_ro("method_schema", &GroundProblem::method_schema)
         .def_ro("initial_state", &GroundProblem::initial_state)
         .def_ro("initial_task", &GroundProblem::initial_task)
         .def_ro("solvable", &GroundProblem::solvable)
+        .def("method_task", [](const GroundProblem& problem, std::size_t method) { return problem.method_task.at(method); })
+        .def("method_schema", [](const GroundProblem& problem, std::size_t method) { return problem.method_schema.at(method); })
         .def("method_is_choice",
              [](const GroundProblem& problem, std::size_t method) { return bool(problem.method_is_choice.at(method)); })
+        .def("effects",
+             [](const GroundProblem& problem, std::size_t action) {
+                 return std::pair(problem.effect_begin.at(action), problem.effect_begin.at(action + 1));
+             })
         .def("fact_arguments", &row<&GroundProblem::fact_arguments>)
         .def("preconditions", &row<&GroundProblem::preconditions>)
         .def("negative_preconditions", &row<&GroundProblem::negative_preconditions>)

@@ -11,6 +11,15 @@ namespace {
 
 constexpr std::size_t kMostCases = 10000;
 
+// Thrown while a formula falls into too many cases; `CaseBuilder::build` adds which action it is.
+struct CaseLimitPassed {};
+
+void check_count(const Cases& cases) {
+    if (cases.size() > kMostCases) {
+        throw CaseLimitPassed{};
+    }
+}
+
 std::optional<Cube> merge(const Cube& left, const Cube& right) {
     Cube both;
     both.reserve(left.size() + right.size());
@@ -21,6 +30,16 @@ std::optional<Cube> merge(const Cube& left, const Cube& right) {
         }
     }
     return both;
+}
+
+// All of the disjunctions at once: single cases first, since they decide others, then the shortest disjunctions.
+Cases conjunction_of_all(std::vector<Cases> parts) {
+    std::stable_sort(parts.begin(), parts.end(), [](const Cases& left, const Cases& right) { return left.size() < right.size(); });
+    Cases result{{}};
+    for (const Cases& part : parts) {
+        result = conjunction(result, part);
+    }
+    return result;
 }
 
 }  // namespace
@@ -47,6 +66,7 @@ Cases conjunction(const Cases& left, const Cases& right) {
         for (const Cube& second : right) {
             if (auto both = merge(first, second)) {
                 result.push_back(std::move(*both));
+                check_count(result);
             }
         }
     }
@@ -88,17 +108,18 @@ void CaseBuilder::build(const TaskInstance& instance, std::vector<ActionCase>& c
     Binding binding(objects.begin(), objects.end());
     binding.resize(action.slot_count, kUnbound);
     std::vector<ActionCase> made;
-    for (Cube& cube : cases_of(action.precondition, binding, false)) {
-        made.push_back({instance, std::move(cube), {}, {}});
-    }
-    split_by_cost(action, binding, made);
-    if (made.size() > kMostCases) {
+    try {
+        for (Cube& cube : cases_of(action.precondition, binding, false)) {
+            made.push_back({instance, std::move(cube), {}, {}});
+        }
+        split_by_cost(action, binding, made);
+        const auto all_effects = effects(action, binding);
+        for (ActionCase& one : made) {
+            one.effects = all_effects;
+            cases.push_back(std::move(one));
+        }
+    } catch (const CaseLimitPassed&) {
         throw TooManyCases{instance};
-    }
-    const auto all_effects = effects(action, binding);
-    for (ActionCase& one : made) {
-        one.effects = all_effects;
-        cases.push_back(std::move(one));
     }
 }
 
@@ -125,7 +146,10 @@ void CaseBuilder::split_by_cost(const LiftedAction& action, Binding& binding, st
                 }
             }
             cases = std::move(split);
-            return cases.size() <= kMostCases;
+            if (cases.size() > kMostCases) {
+                throw CaseLimitPassed{};
+            }
+            return true;
         });
     }
 }
@@ -175,14 +199,16 @@ Cases CaseBuilder::cases_of(const Formula& formula, Binding& binding, bool negat
             break;
     }
     const bool conjunctive = (formula.kind == FormulaKind::And || formula.kind == FormulaKind::Forall) != negated;
-    Cases result = conjunctive ? Cases{{}} : Cases{};
+    Cases result;
+    std::vector<Cases> parts;  // of a conjunction
     const auto take = [&](const Formula& operand) {
         Cases cases = cases_of(operand, binding, negated);
         if (conjunctive) {
-            result = conjunction(result, cases);
-            return !result.empty();
+            parts.push_back(std::move(cases));
+            return !parts.back().empty();
         }
         std::move(cases.begin(), cases.end(), std::back_inserter(result));
+        check_count(result);
         return true;
     };
     if (formula.kind == FormulaKind::And || formula.kind == FormulaKind::Or) {
@@ -193,9 +219,10 @@ Cases CaseBuilder::cases_of(const Formula& formula, Binding& binding, bool negat
             return take(formula.operands.front());
         });
     }
-    if (!conjunctive) {
-        simplify(result);
+    if (conjunctive) {
+        return conjunction_of_all(std::move(parts));
     }
+    simplify(result);
     return result;
 }
 

@@ -57,8 +57,12 @@ __all__ = [
 
 
 def __getattr__(name: str) -> str:
-    if name == "__version__":  # looked up when it is asked for: it takes as long as the rest of the import
-        from importlib.metadata import version
+    if name != "__version__":
+        raise AttributeError(f"module 'statehtn' has no attribute '{name}'")
+    # Looked up when it is asked for: that takes as long as the rest of the import.
+    from importlib.metadata import PackageNotFoundError, version
 
+    try:
         return version("statehtn")
-    raise AttributeError(f"module 'statehtn' has no attribute '{name}'")
+    except PackageNotFoundError:
+        return "0 (not installed)"

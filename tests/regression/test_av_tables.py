@@ -7,7 +7,10 @@ from functools import cache
 import pytest
 
 import statehtn
+from statehtn.core.grounding import ground
 from statehtn.model import CostDistribution, Plan
+from statehtn.reference import Heuristic as ReferenceHeuristic
+from statehtn.reference import blind, find_plans, hmax
 from statehtn.risk import expected_utility_text, plan_expected_cost, plan_risk_cost, utility_for
 from statehtn.validate import validate
 from tests.brute_force import all_plans
@@ -70,10 +73,20 @@ def test_table_1(row: dict[str, str]) -> None:
 @pytest.mark.parametrize("heuristic", ADMISSIBLE_HEURISTICS)
 @pytest.mark.parametrize("row", P1_ROWS, ids=row_id)
 def test_every_heuristic_proves_the_same_optimum(row: dict[str, str], heuristic: str) -> None:
-    best = min(
-        plan_risk_cost(laws, utility_for(row["attitude"], alpha_of(row))) for _, laws in plans_of_p1().values()
-    )
+    best = min(plan_risk_cost(laws, utility_for(row["attitude"], alpha_of(row))) for _, laws in plans_of_p1().values())
     assert solve("av", "p1", row["attitude"], alpha_of(row), heuristic).risk_cost == pytest.approx(best, rel=1e-9)
+
+
+@pytest.mark.parametrize("heuristic", [blind, hmax])
+@pytest.mark.parametrize("row", P1_ROWS, ids=row_id)
+def test_the_reference_proves_the_same_optimum(row: dict[str, str], heuristic: ReferenceHeuristic) -> None:
+    vehicle = problem("av", "p1")
+    solution = find_plans(ground(vehicle).to_model(), utility_for(row["attitude"], alpha_of(row)), heuristic)
+    assert solution.status == "optimal"
+    assert solution.plan is not None
+    assert validate(vehicle, solution.plan).valid
+    expected = solve("av", "p1", row["attitude"], alpha_of(row)).risk_cost
+    assert solution.risk_cost == pytest.approx(expected, rel=1e-9)
 
 
 def test_p1_has_exactly_the_sixteen_plans() -> None:
@@ -123,9 +136,7 @@ def test_no_lights_by_day() -> None:
     folder = DOMAINS / "av"
     night = (folder / "p1.hddl").read_text(encoding="utf-8")
     assert "(night)" in night
-    by_day = statehtn.read_hddl_text(
-        (folder / "domain.hddl").read_text(encoding="utf-8"), night.replace("(night)", "")
-    )
+    by_day = statehtn.read_hddl_text((folder / "domain.hddl").read_text(encoding="utf-8"), night.replace("(night)", ""))
     result = statehtn.plan(by_day, attitude="averse", alpha=0.9)
     assert result.plan is not None
     assert validate(by_day, result.plan).valid

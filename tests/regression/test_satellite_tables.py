@@ -1,4 +1,4 @@
-"""The paper's results on the Satellite problems: the 48 rows of its table 2, its three plans, and its remark on alpha 0.1."""
+"""The paper's results on the Satellite problems: the 48 rows of table 2, its three plans, its remark on alpha 0.1."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def test_every_heuristic_proves_the_same_optimum(row: dict[str, str], heuristic:
 
 @pytest.mark.parametrize("row", THREE_PLANS, ids=lambda row: f"plan{row['plan']}")
 def test_the_three_plans(row: dict[str, str]) -> None:
-    plan, laws = plans_of_the_smallest()[tuple(row["actions"].split())]
+    _, laws = plans_of_the_smallest()[tuple(row["actions"].split())]
     for attitude in ("seeking", "averse"):
         utility = utility_for(attitude, 0.5)
         log10 = utility.log10_expected_utility(plan_risk_cost(laws, utility))

@@ -1,7 +1,7 @@
 """From names to numbers: the lifted problem as the compiled grounder takes it.
 
-Three things become tasks here. The initial network is a method of an artificial initial task; a method's precondition is an
-action without effects before all its subtasks; the goal is such an action after all tasks of the initial network.
+Three things become tasks here. The initial network is a method of an artificial initial task; a method's precondition
+is an action without effects before all its subtasks; the goal is such an action after all tasks of the initial network.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from statehtn import _relax
+import statehtn._relax as _relax
 from statehtn.model import (
     TRUE,
     Action,
@@ -37,8 +37,8 @@ Kind = _relax.FormulaKind
 class Encoding:
     """A lifted problem in numbers, and what the numbers mean.
 
-    `actions` and `methods` are by schema number: None for artificial actions, and for the method that stands for the initial
-    network. `offsets` tells for each method how many artificial subtasks come before its own.
+    `actions` and `methods` are by schema number: None for artificial actions, and for the method that stands for the
+    initial network.
     """
 
     problem: Problem
@@ -49,7 +49,6 @@ class Encoding:
     action_names: list[str] = field(default_factory=list)
     tasks: list[str] = field(default_factory=list)
     methods: list[Method | None] = field(default_factory=list)
-    offsets: list[int] = field(default_factory=list)
 
 
 def encode(problem: Problem) -> Encoding:
@@ -66,9 +65,10 @@ class _Scope:
 
     def bind(self, parameters: Iterable[Parameter]) -> dict[str, int]:
         """Give new slots to quantified variables; returns the slots of the names that they hide."""
-        hidden = {parameter.name: self.slots[parameter.name] for parameter in parameters if parameter.name in self.slots}
-        for parameter in parameters:
-            self.slots[parameter.name] = self.count
+        names = [parameter.name for parameter in parameters]
+        hidden = {name: self.slots[name] for name in names if name in self.slots}
+        for name in names:
+            self.slots[name] = self.count
             self.count += 1
         return hidden
 
@@ -119,7 +119,8 @@ class _Encoder:
             if method.precondition != TRUE:
                 before.append((guard, tuple(parameter.name for parameter in guards[method.name])))
                 guard += 1
-            self.add_method(method, method.parameters, numbers[method.task], method.arguments, method.network, numbers, before)
+            task = numbers[method.task]
+            self.add_method(method, method.parameters, task, method.arguments, method.network, numbers, before)
         after = [(guard, ())] if problem.goal != TRUE else []
         initial_task = len(result.actions) + len(domain.tasks)
         self.add_method(None, problem.parameters, initial_task, (), problem.network, numbers, [], after)
@@ -140,7 +141,9 @@ class _Encoder:
         precondition = self.formula(action.precondition, scope)
         effects = []
         for effect in action.effects:
-            variables, condition, terms = self.quantified(effect.parameters, effect.condition, effect.atom.arguments, scope)
+            variables, condition, terms = self.quantified(
+                effect.parameters, effect.condition, effect.atom.arguments, scope
+            )
             effects.append(
                 _relax.LiftedEffect(
                     variables, condition, self.predicate_numbers[effect.atom.predicate], terms, effect.positive
@@ -181,15 +184,20 @@ class _Encoder:
         ordering += [(guard, other) for guard in range(offset) for other in middle]
         ordering += [(other, guard) for guard in range(offset + len(own), len(subtasks)) for other in middle]
         self.handle.add_method(
-            self.domains_of(parameters), scope.count, task, self.terms(arguments, scope), constraints, subtasks, ordering
+            self.domains_of(parameters),
+            scope.count,
+            task,
+            self.terms(arguments, scope),
+            constraints,
+            subtasks,
+            ordering,
         )
         self.result.methods.append(method)
-        self.result.offsets.append(offset)
 
     def quantified(
         self, parameters: Sequence[Parameter], condition: Formula, names: Sequence[str], scope: _Scope
     ) -> tuple[list[tuple[int, int]], _relax.Formula, list[int]]:
-        """Encode a condition and terms under quantified variables: (slot, domain) of each variable, condition, terms."""
+        """Encode a condition and terms under quantified variables, which come first, as (slot, domain)."""
         hidden = scope.bind(parameters)
         variables = [(scope.slots[parameter.name], self.domain_of(parameter)) for parameter in parameters]
         encoded = self.formula(condition, scope)

@@ -6,11 +6,11 @@ import time
 from dataclasses import dataclass
 from functools import cached_property
 
-from statehtn import _relax
+import statehtn._relax as _relax
 from statehtn.core.encode import Encoding, encode
 from statehtn.errors import UnsupportedError
 from statehtn.limits import LimitReached, Limits
-from statehtn.model import CostDistribution, Fact, GroundAction, GroundEffect, GroundMethod, GroundProblem, Problem
+from statehtn.model import CostDistribution, GroundAction, GroundEffect, GroundMethod, GroundProblem, Problem
 from statehtn.model.cost_law import action_law, is_unconditional
 from statehtn.model.costs import Arithmetic, Expression, FunctionTerm
 from statehtn.model.problem import Action
@@ -92,7 +92,6 @@ class Grounding:
 
     def _action(self, action: int, schema: int) -> GroundAction:
         handle = self.handle
-        begin = handle.effect_begin
         return GroundAction(
             self.encoding.action_names[schema],
             self.objects(handle.action_arguments(action)),
@@ -105,7 +104,7 @@ class Grounding:
                     frozenset(handle.effect_conditions(effect)),
                     frozenset(handle.effect_negative_conditions(effect)),
                 )
-                for effect in range(begin[action], begin[action + 1])
+                for effect in range(*handle.effects(action))
             ),
             self.laws[action],
             self.encoding.actions[schema] is None,
@@ -113,12 +112,12 @@ class Grounding:
 
     def _method(self, method: int) -> GroundMethod:
         handle = self.handle
-        lifted = None if handle.method_is_choice(method) else self.encoding.methods[handle.method_schema[method]]
+        lifted = None if handle.method_is_choice(method) else self.encoding.methods[handle.method_schema(method)]
         name = lifted.name if lifted else "case" if handle.method_is_choice(method) else "initial network"
         return GroundMethod(
             name,
             self.objects(handle.method_arguments(method)),
-            handle.method_task[method],
+            handle.method_task(method),
             tuple(handle.method_subtasks(method)),
             tuple(handle.method_ordering(method)),
         )
@@ -143,7 +142,9 @@ def ground(problem: Problem, limits: Limits = Limits()) -> Grounding:
     if isinstance(handle, tuple):
         action, arguments = handle
         name = " ".join((encoding.action_names[action], *(encoding.objects[number] for number in arguments)))
-        raise UnsupportedError(f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?")
+        raise UnsupportedError(
+            f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?"
+        )
     return Grounding(problem, encoding, handle, tuple(_laws(encoding, handle, limits)))
 
 
@@ -194,6 +195,8 @@ def _is_the_same_for_all(action: Action) -> bool:
         return True
 
     return all(
-        is_unconditional(block) and block.external is None and all(is_constant(e) for branch in block.branches for e in branch)
+        is_unconditional(block)
+        and block.external is None
+        and all(is_constant(expression) for branch in block.branches for expression in branch)
         for block in action.costs
     )

@@ -16,8 +16,9 @@ COST_BITS = 40
 class Prices:
     """Risk costs by action, rounded down to whole units.
 
-    The unit is a power of two, such that the largest cost takes about 40 bits: sums are exact, and a sum of rounded costs is at
-    most the exact one, by less than a unit for each action. `units * 2**-exponent` is a cost in the domain's own unit.
+    The unit is a power of two, such that the largest cost takes about 40 bits: sums are exact, and a sum of rounded
+    costs is at most the exact one, by less than a unit for each action. `units * 2**-exponent` is a cost in the
+    domain's own unit.
     """
 
     units: list[int]

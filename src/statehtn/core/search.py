@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from statehtn import _relax
+import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.pricing import price
 from statehtn.core.trace import read_trace
@@ -20,7 +20,15 @@ from statehtn.risk import Utility
 
 @dataclass(frozen=True, slots=True)
 class HeuristicInfo:
-    """What is known of a heuristic: never above the true cost; f never falls; a dead end is one; where it comes from."""
+    """What is known of a heuristic.
+
+    Args:
+        kind: its name in the core.
+        admissible: it never estimates more than is still to pay.
+        consistent: along a step it falls by at most the step's cost.
+        safe: what it calls a dead end is one.
+        description: what it does, and where it comes from.
+    """
 
     kind: _relax.HeuristicKind
     admissible: bool
@@ -141,14 +149,16 @@ def find_plans(
         grounding: the ground problem and its cost laws.
         utility: the agent's; it prices the actions.
         heuristic: a name in `HEURISTICS`.
-        search: a name in `SEARCHES`; only `astar` promises the optimum, `weighted` a plan of at most `weight` times its risk cost.
+        search: a name in `SEARCHES`; with an admissible heuristic `astar` promises the optimum, `weighted` a plan of at
+            most `weight` times its risk cost.
         weight: of h in weighted A*, at least 1.
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
         switches: refinements to leave out.
 
     Raises:
-        UnsupportedError: the costs of a plan exceed the range of fixed point (some 10^6 times the largest cost of an action).
+        UnsupportedError: the costs of a plan exceed the range of fixed point, some 10^6 times the largest cost of an
+            action.
     """
     prices = price(grounding.laws, utility)
     options = _relax.SearchOptions()
@@ -186,7 +196,7 @@ def find_plans(
         )
     except OverflowError:
         raise UnsupportedError(
-            "the costs of a plan add up to more than the search can hold; are some costs millions of times larger than others?"
+            "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
         ) from None
     statistics = result.statistics
     return SearchOutcome(

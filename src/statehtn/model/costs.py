@@ -43,7 +43,7 @@ class CostDistribution:
         """
         merged: dict[float, float] = {}
         for probability, cost in outcomes:
-            if not (math.isfinite(probability) and 0 <= probability):
+            if not (math.isfinite(probability) and probability >= 0):
                 raise InputError(f"a probability must be between 0 and 1, found {probability:g}")
             if not (math.isfinite(cost) and cost >= 0):
                 raise InputError(f"a cost must be a finite number and at least 0, found {cost:g}")
@@ -86,7 +86,10 @@ class FunctionTerm:
 
 @dataclass(frozen=True, slots=True)
 class Arithmetic:
-    """A sum, difference or product of expressions; `operator` is one of `+ - *`. A difference of one operand negates it."""
+    """A sum, difference or product of expressions; `operator` is one of `+ - *`.
+
+    A difference of one operand negates it.
+    """
 
     operator: str
     operands: tuple[Expression, ...]
@@ -101,11 +104,13 @@ class CostBlock:
     """One independent part of an action's cost, due in the states where its condition holds.
 
     Args:
-        branches: pairs (probability, cost); what is missing to probability 1 costs 0. An `increase` of its own is one branch
-            of probability 1.
+        branches: pairs (probability, cost); what is missing to probability 1 costs 0. An `increase` of its own is one
+            branch of probability 1.
         condition: a `when` around the block; constant true where there is none.
-        parameters: variables of a `forall` around the block: it is due once for each binding under which the condition holds.
-        external: a Python callable that gives the cost instead of the branches; it gets the action's arguments (object names).
+        parameters: variables of a `forall` around the block: it is due once for each binding under which the condition
+            holds.
+        external: a Python callable that gives the cost instead of the branches; it gets the action's arguments (object
+            names).
     """
 
     branches: tuple[tuple[Expression, Expression], ...]

@@ -56,7 +56,10 @@ class GroundAction:
 
 @dataclass(frozen=True, slots=True)
 class GroundMethod:
-    """A ground method: the compound task that it decomposes, its subtasks, and pairs (i, j) of subtask indices, i before j."""
+    """A ground method: the compound task that it decomposes, its subtasks, and their order.
+
+    `ordering` has pairs (i, j) of subtask indices, i before j.
+    """
 
     name: str
     arguments: tuple[str, ...]

@@ -21,10 +21,9 @@ class Step:
 class Decomposition:
     """A ground compound task, the method that decomposed it, and what became of the method's subtasks.
 
-    `children` has one entry for each subtask of the method, in the method's own order: the index of the step in the plan
-    for a primitive task, a `Decomposition` for a compound one. `arguments` are the task's.
-    `bindings` are the method's arguments (one object per method parameter) where they are known; a plan read from
-    a file does not tell them.
+    `children` has one entry for each subtask of the method, in the method's own order: the index of the step in the
+    plan for a primitive task, a `Decomposition` for a compound one. `arguments` are the task's. `bindings` are the
+    method's arguments (one object per method parameter) where they are known; a plan read from a file does not tell.
     """
 
     task: str

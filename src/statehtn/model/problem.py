@@ -37,7 +37,7 @@ class Effect:
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """A primitive task: a cost-variable operator with one (deterministic) effect (paper Definition 4.4 with one effect)."""
+    """A primitive task: a cost-variable operator whose effect is certain (paper Definition 4.4 with one effect)."""
 
     name: str
     parameters: tuple[Parameter, ...] = ()
@@ -69,7 +69,7 @@ class TaskNetwork:
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """One way to decompose the compound task `task(arguments)` into a network; its parameters bind every variable in it."""
+    """One way to decompose the compound task `task(arguments)` into a network; its parameters bind all variables."""
 
     name: str
     parameters: tuple[Parameter, ...]
