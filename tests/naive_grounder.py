@@ -1,7 +1,7 @@
 """Grounding in the plainest way: all instances of everything, then what cannot be is struck out until nothing changes.
 
-The oracle of the compiled grounder, with which it shares no code. A literal that was true once stays so: an action can be
-executed once its precondition is true under some choice of truth values that are all reached, one for each fact.
+The oracle of the compiled grounder, with which it shares no code. A literal that was true once stays so: an action can
+be executed once its precondition is true under some choice of truth values that are all reached, one for each fact.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ class NaiveGrounder:
 
     def reach_literals(self) -> None:
         """Find all literals that the present actions can make true, and drop the actions that cannot be executed."""
-        everything = [fact for signature in self.problem.domain.predicates.values() for fact in self.facts(signature.name)]
+        everything = [fact for predicate in self.problem.domain.predicates for fact in self.facts(predicate)]
         initial = self.problem.initial_state
         self.reached = {(fact, fact in initial) for fact in {*everything, *initial}}
         while True:
@@ -136,10 +136,8 @@ class NaiveGrounder:
         """Tell whether reached truth values, one for each fact, make the formula true."""
         facts = sorted(set(self.atoms(formula, bindings)))
         values = [[value for value in (False, True) if (fact, value) in self.reached] for fact in facts]
-        return any(
-            self.semantics.holds(formula, bindings, frozenset(fact for fact, value in zip(facts, chosen, strict=True) if value))
-            for chosen in itertools.product(*values)
-        )
+        states = (frozenset(itertools.compress(facts, chosen)) for chosen in itertools.product(*values))
+        return any(self.semantics.holds(formula, bindings, state) for state in states)
 
     def atoms(self, formula: Formula, bindings: Bindings) -> Iterator[Fact]:
         match formula:

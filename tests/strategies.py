@@ -6,6 +6,7 @@ has an action that costs something), so that an optimum exists, but it need not 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -129,9 +130,9 @@ def problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     parameters = names.parameters(draw, 1, "i") if chance(draw, 0.2) else ()
     network = draw(task_network(names, parameters, actions, tasks, draw(st.integers(1, 3)), orders))
     facts = [(p.name, *arguments) for p in predicates.values() for arguments in ground(p, objects, parents)]
-    initial = frozenset(fact for fact in facts if draw(st.booleans()))
+    initial = frozenset(fact for fact in facts if chance(draw, 0.6))
     values = {(FUNCTION, name): draw(st.sampled_from(COSTS)) for name in objects}
-    goal = names.precondition(draw, (), (0, 0, 0, 1))
+    goal = names.precondition(draw, (), (0, 0, 0, 0, 1))
     domain = Domain("random", TypeHierarchy(parents), {}, predicates, functions, tasks, actions, methods)
     return Problem("p", domain, objects, parameters, network, initial, values, goal)
 
@@ -147,7 +148,7 @@ def ground(predicate: Signature, objects: dict[str, str], parents: dict[str, tup
 @st.composite
 def action(draw: Draw, names: Names, name: str, costly: bool) -> Action:
     parameters = names.parameters(draw, 2, "x")
-    precondition = names.precondition(draw, parameters, (0, 0, 1, 1, 2))
+    precondition = names.precondition(draw, parameters, (0, 0, 0, 1, 1, 2))
     effects = tuple(draw(effect(names, parameters)) for _ in range(draw(st.integers(1, 3))))
     costs: list[CostBlock] = []
     if costly and not chance(draw, 0.15):
@@ -202,24 +203,17 @@ def method(
     orders: tuple[str, ...],
 ) -> Method:
     parameters = task.parameters + (names.parameters(draw, 1, "z") if chance(draw, 0.5) else ())
-    precondition = names.precondition(draw, parameters, (0, 0, 0, 1, 1, 2))
-    size = draw(st.sampled_from((0, 1, 1, 2, 2, 3)))
+    precondition = names.precondition(draw, parameters, (0, 0, 0, 0, 1, 1, 2))
     later = {other: signature for other, signature in tasks.items() if other > task.name}
-    recursive = chance(draw, 0.3)
-    network = draw(task_network(names, parameters, actions, tasks if recursive else later, size, orders))
-    if recursive and not chance(draw, 0.05):
-        network = pay_for_recursion(network, actions, task.name)
+    paying = [action for action in actions.values() if is_costly(action, actions)]
+    size = draw(st.sampled_from((0, 1, 1, 2, 2, 3)))
+    if size > 1 and chance(draw, 0.4) and (paying or chance(draw, 0.05)):
+        back = [signature for signature in tasks.values() if signature.name <= task.name]
+        candidates: tuple[Sequence[Action | Signature], ...] = (paying, back) if paying else (back,)
+        network = draw(task_network(names, parameters, actions, tasks, size, orders, candidates))
+    else:
+        network = draw(task_network(names, parameters, actions, later, size, orders))
     return Method(name, parameters, task.name, tuple(p.name for p in task.parameters), network, precondition)
-
-
-def pay_for_recursion(network: TaskNetwork, actions: dict[str, Action], task: str) -> TaskNetwork:
-    """Drop the subtasks that lead back to the task, or one that was before it, if no action of the network costs something."""
-    if any(subtask.task in actions and is_costly(actions[subtask.task], actions) for subtask in network.subtasks):
-        return network
-    kept = [i for i, subtask in enumerate(network.subtasks) if subtask.task in actions or subtask.task > task]
-    number = {old: new for new, old in enumerate(kept)}
-    ordering = tuple((number[i], number[j]) for i, j in network.ordering if i in number and j in number)
-    return TaskNetwork(tuple(network.subtasks[i] for i in kept), ordering)
 
 
 def is_costly(action: Action, actions: dict[str, Action]) -> bool:
@@ -241,18 +235,25 @@ def task_network(
     tasks: dict[str, Signature],
     size: int,
     orders: tuple[str, ...],
+    candidates: tuple[Sequence[Action | Signature], ...] = (),
 ) -> TaskNetwork:
+    """A network of so many subtasks; `candidates` are what the first ones are drawn from."""
     subtasks: list[Subtask] = []
     for i in range(size):
-        if subtasks and chance(draw, 0.1):  # twice the same
+        if i < len(candidates):
+            chosen = draw(st.sampled_from(candidates[i]))
+        elif subtasks and chance(draw, 0.1):  # twice the same
             subtasks.append(Subtask(f"s{i}", subtasks[-1].task, subtasks[-1].arguments))
             continue
-        compound = bool(tasks) and chance(draw, 0.5)
-        chosen = draw(st.sampled_from(list(tasks.values() if compound else actions.values())))
+        else:
+            compound = bool(tasks) and chance(draw, 0.5)
+            chosen = draw(st.sampled_from(list(tasks.values() if compound else actions.values())))
         arguments = tuple(names.term(draw, parameter.types[0], scope) for parameter in chosen.parameters)
         subtasks.append(Subtask(f"s{i}", chosen.name, arguments))
     pairs = [(i, j) for j in range(size) for i in range(j)]
     order = draw(st.sampled_from(orders))
+    if order == "total" and chance(draw, 0.15):
+        pairs = [(j, i) for i, j in pairs]
     if order == "partial":
         pairs = [pair for pair in pairs if draw(st.booleans())]
     return TaskNetwork(tuple(subtasks), tuple(pairs) if order != "none" else ())

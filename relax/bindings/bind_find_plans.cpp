@@ -27,7 +27,7 @@ public:
     Evaluator(const relax::GroundProblem& problem, const std::vector<relax::Cost>& costs, relax::HeuristicKind kind)
         : problem_(problem),
           bounds_(relax::tdg_bound(problem, costs)),
-          heuristic_(relax::make_heuristic(kind, problem, costs)) {}
+          heuristic_(relax::make_heuristic(kind, problem, costs, limits_)) {}
 
     std::optional<relax::Cost> evaluate(const std::vector<relax::FactId>& facts, const std::vector<relax::TaskId>& tasks) {
         relax::StateBits state(relax::StateTransition(problem_).word_count(), 0);
@@ -49,6 +49,7 @@ public:
 
 private:
     const relax::GroundProblem& problem_;
+    relax::Limits limits_;  // none
     std::vector<relax::Cost> bounds_;
     std::unique_ptr<relax::Heuristic> heuristic_;
 };
@@ -77,6 +78,7 @@ void bind_find_plans(nb::module_& module) {
         .value("Tdg", relax::HeuristicKind::Tdg)
         .value("HMax", relax::HeuristicKind::HMax)
         .value("LmCut", relax::HeuristicKind::LmCut)
+        .value("Potential", relax::HeuristicKind::Potential)
         .value("Add", relax::HeuristicKind::Add)
         .value("Ff", relax::HeuristicKind::Ff);
     nb::enum_<relax::SearchAlgorithm>(module, "SearchAlgorithm")

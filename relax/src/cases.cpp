@@ -34,7 +34,8 @@ std::optional<Cube> merge(const Cube& left, const Cube& right) {
 
 // All of the disjunctions at once: single cases first, since they decide others, then the shortest disjunctions.
 Cases conjunction_of_all(std::vector<Cases> parts) {
-    std::stable_sort(parts.begin(), parts.end(), [](const Cases& left, const Cases& right) { return left.size() < right.size(); });
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Cases& left, const Cases& right) { return left.size() < right.size(); });
     Cases result{{}};
     for (const Cases& part : parts) {
         result = conjunction(result, part);
@@ -189,8 +190,9 @@ Cases CaseBuilder::cases_of(const Formula& formula, Binding& binding, bool negat
         case FormulaKind::Equals:
         case FormulaKind::InDomain: {
             const ObjectId first = value_of(formula.terms[0], binding);
-            const bool holds = formula.kind == FormulaKind::Equals ? first == value_of(formula.terms[1], binding)
-                                                                   : reachability_.domains().contains(formula.symbol, first);
+            const bool holds = formula.kind == FormulaKind::Equals
+                                   ? first == value_of(formula.terms[1], binding)
+                                   : reachability_.domains().contains(formula.symbol, first);
             return holds != negated ? Cases{{}} : Cases{};
         }
         case FormulaKind::Not:

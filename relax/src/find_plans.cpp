@@ -36,7 +36,7 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       limits_(limits),
       statistics_(statistics),
       progression_(problem, costs_, tdg_bound(problem, costs_)),
-      heuristic_(make_heuristic(options.heuristic, problem, costs_)) {}
+      heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)) {}
 
 SearchResult FindPlans::run() {
     SearchResult result;

@@ -1,5 +1,7 @@
 #include "relax/heuristic.hpp"
 
+#include <vector>
+
 #include "relax/hmax.hpp"
 #include "relax/lm_cut.hpp"
 #include "relax/rc_heuristic.hpp"
@@ -25,7 +27,7 @@ public:
 // The max heuristic with the costs of the model, as LM-cut has it with costs that it lowers.
 class PricedHMax {
 public:
-    explicit PricedHMax(const RelaxedModel& model) : model_(model), hmax_(model) {}
+    PricedHMax(const RelaxedModel& model, Limits& /*limits*/) : model_(model), hmax_(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return hmax_.run(task, model_.owner_cost); }
 
 private:
@@ -33,34 +35,65 @@ private:
     HMax hmax_;
 };
 
+// LM-cut on what a decomposition costs beyond the cheapest one. Every method costs its slack, the sum of its subtasks' bounds less
+// its task's, and actions are free: a plan costs the sum of the network's bounds and of the slacks of the methods it uses.
+class SlackLmCut final : public Heuristic {
+public:
+    SlackLmCut(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
+        : lm_cut_(problem, std::vector<Cost>(problem.action_count(), 0), limits, slacks(problem, tdg_bound(problem, costs))) {}
+
+    std::optional<Cost> evaluate(const NodeView& node) override {
+        const auto slack = lm_cut_.evaluate(node);
+        return slack && node.tdg_bound < kNoDecomposition ? std::optional(node.tdg_bound + *slack) : std::nullopt;
+    }
+
+private:
+    static std::vector<Cost> slacks(const GroundProblem& problem, const std::vector<Cost>& bounds) {
+        std::vector<Cost> slacks;
+        for (MethodId method = 0; method < problem.method_count(); ++method) {
+            Cost sum = 0;
+            for (const TaskId subtask : problem.method_subtasks[method]) {
+                sum = add_bounds(sum, bounds[subtask]);
+            }
+            slacks.push_back(sum - bounds[problem.method_task[method]]);
+        }
+        return slacks;
+    }
+
+    RcHeuristic<LmCut> lm_cut_;
+};
+
 class Additive : private RelaxedPlan {
 public:
-    using RelaxedPlan::RelaxedPlan;
+    Additive(const RelaxedModel& model, Limits& /*limits*/) : RelaxedPlan(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return add(task); }
 };
 
 class Ff : private RelaxedPlan {
 public:
-    using RelaxedPlan::RelaxedPlan;
+    Ff(const RelaxedModel& model, Limits& /*limits*/) : RelaxedPlan(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return ff(task); }
 };
 
 }  // namespace
 
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs) {
+std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs,
+                                          Limits& limits) {
     switch (kind) {
         case HeuristicKind::Blind:
             return std::make_unique<Blind>();
         case HeuristicKind::Tdg:
             return std::make_unique<TdgBound>();
         case HeuristicKind::HMax:
-            return std::make_unique<RcHeuristic<PricedHMax>>(problem, costs);
+            return std::make_unique<RcHeuristic<PricedHMax>>(problem, costs, limits);
         case HeuristicKind::LmCut:
-            return std::make_unique<RcHeuristic<LmCut>>(problem, costs);
+            return std::make_unique<RcHeuristic<LmCut>>(problem, costs, limits);
+        case HeuristicKind::Potential:
+            return std::make_unique<SlackLmCut>(problem, costs, limits);
         case HeuristicKind::Add:
-            return std::make_unique<RcHeuristic<Additive>>(problem, costs);
+            return std::make_unique<RcHeuristic<Additive>>(problem, costs, limits);
         case HeuristicKind::Ff:
-            return std::make_unique<RcHeuristic<Ff>>(problem, costs);
+            return std::make_unique<RcHeuristic<Ff>>(problem, costs, limits);
     }
     return nullptr;
 }

@@ -4,8 +4,9 @@
 
 namespace relax {
 
-LmCut::LmCut(const RelaxedModel& model)
+LmCut::LmCut(const RelaxedModel& model, Limits& limits)
     : model_(model),
+      limits_(limits),
       hmax_(model),
       costs_(model.owner_cost),
       zone_round_(model.fact_count(), 0),
@@ -23,7 +24,7 @@ std::optional<Cost> LmCut::run(const RelaxedTask& task) {
     }
     Cost total = 0;
     Cost left = *first;
-    while (left > 0) {
+    while (left > 0 && !limits_.check()) {
         ++rounds_;
         mark_goal_zone(hmax_.dearest_goal());
         find_cut(task);

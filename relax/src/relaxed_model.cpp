@@ -31,7 +31,7 @@ void sort_unique(std::vector<Value>& values) {
 
 }  // namespace
 
-RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs)
+RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs, std::span<const Cost> method_costs)
     : state_fact_count(problem.fact_count()), complement_of_(problem.fact_count(), kAlwaysTrue) {
     std::vector<FactId> negative;
     for (ActionId action = 0; action < problem.action_count(); ++action) {
@@ -51,14 +51,19 @@ RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> c
     reached_begin_ = next;
 
     owner_cost.assign(costs.begin(), costs.end());
-    owner_cost.push_back(0);
+    owner_cost.insert(owner_cost.end(), method_costs.begin(), method_costs.end());
+    const bool methods_are_free = method_costs.empty();
+    if (methods_are_free) {
+        owner_cost.push_back(0);
+    }
+    const auto first_method = static_cast<OwnerId>(problem.action_count());
     for (ActionId action = 0; action < problem.action_count(); ++action) {
         add_action(problem, action);
     }
     for (TaskId task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
         for (const MethodId method : problem.methods_of(task)) {
             task_operators.push(static_cast<OperatorId>(owner.size()));
-            add_method(problem, method);
+            add_method(problem, method, methods_are_free ? first_method : first_method + method);
         }
         task_operators.finish_row();
     }
@@ -114,7 +119,7 @@ void RelaxedModel::add_action(const GroundProblem& problem, ActionId action) {
     task_operators.finish_row();
 }
 
-void RelaxedModel::add_method(const GroundProblem& problem, MethodId method) {
+void RelaxedModel::add_method(const GroundProblem& problem, MethodId method, OwnerId owner_of_it) {
     const auto row = problem.method_subtasks[method];
     std::vector<TaskId> subtasks(row.begin(), row.end());
     sort_unique(subtasks);
@@ -128,7 +133,7 @@ void RelaxedModel::add_method(const GroundProblem& problem, MethodId method) {
     preconditions.finish_row();
     adds.push(reached(problem.method_task[method]));
     adds.finish_row();
-    owner.push_back(static_cast<OwnerId>(owner_cost.size() - 1));
+    owner.push_back(owner_of_it);
 }
 
 void RelaxedModel::index() {
@@ -138,7 +143,6 @@ void RelaxedModel::index() {
     for (OperatorId op = 0; op < owner.size(); ++op) {
         owned[owner[op]].push_back(op);
     }
-    owned.back().clear();  // methods never change their cost
     for (const auto& list : owned) {
         owner_operators.add_row(list);
     }

@@ -116,6 +116,14 @@ def test_a_slightly_averse_satellite_sometimes_powers_two_instruments() -> None:
     assert any(plan is not None and "overload" in actions(plan) for plan in plans)
 
 
+@pytest.mark.parametrize(("attitude", "alpha"), [("seeking", 0.1), ("seeking", 0.9), ("averse", 0.9)])
+@pytest.mark.parametrize("instance", ORDERED)
+def test_other_intensities_change_nothing(instance: str, attitude: str, alpha: float) -> None:
+    usual, other = (solve("satellite", instance, attitude, value) for value in (0.5, alpha))
+    assert other.length == usual.length
+    assert other.expected_cost == pytest.approx(usual.expected_cost)
+
+
 @pytest.mark.parametrize("attitude", ["neutral", "seeking"])
 def test_without_the_order_thirteen_actions_are_enough(attitude: str) -> None:
     alpha = None if attitude == "neutral" else 0.5

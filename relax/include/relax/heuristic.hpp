@@ -8,10 +8,11 @@
 
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax {
 
-enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut, Add, Ff };
+enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut, Potential, Add, Ff };
 
 // An admissible heuristic never estimates more than is true.
 constexpr bool is_admissible(HeuristicKind kind) { return kind != HeuristicKind::Add && kind != HeuristicKind::Ff; }
@@ -31,8 +32,10 @@ public:
     virtual std::optional<Cost> evaluate(const NodeView& node) = 0;
 };
 
-// `costs`: by ActionId. All kinds say dead end only where it is true.
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs);
+// `costs`: by ActionId. All kinds say dead end only where it is true. When a limit is reached, an evaluation may end early with a
+// weaker estimate.
+std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs,
+                                          Limits& limits);
 
 }  // namespace relax
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "relax/hmax.hpp"
+#include "relax/limits.hpp"
 #include "relax/relaxed_model.hpp"
 
 namespace relax {
@@ -15,9 +16,10 @@ namespace relax {
 // of the relaxed task needs, adds the least cost among them, and takes it off all of them, until the goals are free.
 class LmCut {
 public:
-    explicit LmCut(const RelaxedModel& model);
+    LmCut(const RelaxedModel& model, Limits& limits);
 
-    // Returns a lower bound of the cost of any plan of the relaxed task, or nothing where there is none.
+    // Returns a lower bound of the cost of any plan of the relaxed task, or nothing where there is none. A limit ends the rounds
+    // early, with a lower bound all the same.
     std::optional<Cost> run(const RelaxedTask& task);
 
     std::uint64_t rounds() const { return rounds_; }
@@ -31,6 +33,7 @@ private:
     void put_into_cut(OwnerId owner);
 
     const RelaxedModel& model_;
+    Limits& limits_;
     HMax hmax_;
     std::vector<Cost> costs_;                 // by OwnerId, what is left of them
     std::vector<std::uint64_t> zone_round_;   // by RelaxedFact: the round in which `zone_` was set

@@ -11,8 +11,9 @@ namespace relax {
 template <typename ClassicalHeuristic>
 class RcHeuristic final : public Heuristic {
 public:
-    RcHeuristic(const GroundProblem& problem, std::span<const Cost> costs)
-        : model_(problem, costs), task_(model_), classical_(model_) {}
+    RcHeuristic(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits,
+                std::span<const Cost> method_costs = {})
+        : model_(problem, costs, method_costs), task_(model_), classical_(model_, limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         task_.set(node.state, node.tasks);

@@ -21,13 +21,13 @@ namespace relax {
 
 using RelaxedFact = std::uint32_t;
 using OperatorId = std::uint32_t;
-// Index space of costs: the actions, and after them one owner for all methods, which costs nothing.
+// Index space of costs: the actions, then either the methods, or one owner for all methods, which costs nothing.
 using OwnerId = std::uint32_t;
 
 class RelaxedModel {
 public:
-    // `costs`: by ActionId, each at least 0.
-    RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs);
+    // `costs`: by ActionId, `method_costs`: by MethodId, or empty where methods are free. All at least 0.
+    RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs, std::span<const Cost> method_costs = {});
 
     static constexpr RelaxedFact kAlwaysTrue = 0;
 
@@ -56,7 +56,7 @@ public:
 
 private:
     void add_action(const GroundProblem& problem, ActionId action);
-    void add_method(const GroundProblem& problem, MethodId method);
+    void add_method(const GroundProblem& problem, MethodId method, OwnerId owner_of_it);
     void index();
 
     RelaxedFact reached_begin_ = 0;

@@ -53,7 +53,8 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
             law = validation.costs[index]
             table.add_row(str(index + 1), str(step), "executed", str(law), number(law.mean))
         else:
-            table.add_row(str(index + 1), str(step), "not reached" if index > len(validation.costs) else "fails", "", "")
+            state = "not reached" if index > len(validation.costs) else "fails"
+            table.add_row(str(index + 1), str(step), state, "", "")
     rows = [("verdict", "valid")] if validation.valid else [("verdict", "invalid")]
     rows += [("because", reason) for reason in validation.reasons]
     if validation.valid:
@@ -93,7 +94,8 @@ def _summary_rows(result: Result) -> list[tuple[str, str]]:
     rows = [("status", ENDINGS[result.status])]
     if found:
         rows.append(("expected cost", number(result.expected_cost)))
-        rows.append(("certainty equivalent", f"{number(result.risk_cost)} (this agent would as soon pay that for certain)"))
+        worth = f"{number(result.risk_cost)} (this agent would as soon pay that for certain)"
+        rows.append(("certainty equivalent", worth))
         rows.append(("expected utility", result.expected_utility or ""))
     if result.log10_expected_utility is not None:
         label = "-log10 |EU|" if result.attitude == "averse" else "log10 EU"

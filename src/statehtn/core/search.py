@@ -61,6 +61,13 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
             True,
             "landmark cuts on the relaxed model (the paper's Algorithm 5; Helmert and Domshlak 2009)",
         ),
+        "potential": HeuristicInfo(
+            _relax.HeuristicKind.Potential,
+            True,
+            False,
+            True,
+            "decomposition-graph bound, plus landmark cuts on what methods cost beyond it",
+        ),
         "add": HeuristicInfo(
             _relax.HeuristicKind.Add,
             False,

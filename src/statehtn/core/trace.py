@@ -40,6 +40,8 @@ def read_trace(grounding: Grounding, result: _relax.SearchResult) -> Plan:
                 continue
             child = step_of[number]
         elif handle.method_is_choice(node.method):
+            if not children[number]:  # a case of a method precondition or the goal
+                continue
             child = children[number][0][1]
         else:
             child = _decomposition(grounding, node.task, node.method, children[number])

@@ -1,0 +1,87 @@
+"""The planner's optimum is the optimum: compared with exhaustive search on random small problems."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+
+from statehtn import Result, Status, validate
+from statehtn.core.grounding import ground
+from statehtn.core.search import SearchSwitches, find_plans
+from statehtn.limits import Limits
+from statehtn.model import Problem
+from statehtn.risk import Utility
+from tests.differential.oracles import ADMISSIBLE, SECONDS, brute_force, close_to, solve
+from tests.strategies import problems, utilities
+
+
+def check_optimal(problem: Problem, utility: Utility, result: Result) -> None:
+    optimum = brute_force(problem, utility)
+    if optimum is None:
+        assert result.status is Status.UNSOLVABLE
+        assert result.plan is None
+        return
+    assert result.status is Status.OPTIMAL
+    assert result.plan is not None
+    assert result.risk_cost == close_to(optimum)
+    assert result.lower_bound == close_to(optimum)
+    validation = validate(problem, result.plan)
+    assert validation.valid, validation.reasons
+    assert validation.risk_cost(utility) == close_to(optimum)
+
+
+@pytest.mark.parametrize("heuristic", ADMISSIBLE)
+@given(problem=problems(), utility=utilities())
+def test_optimum(heuristic: str, problem: Problem, utility: Utility) -> None:
+    check_optimal(problem, utility, solve(problem, utility, heuristic=heuristic))
+
+
+@given(problem=problems(orders=("total",)), utility=utilities())
+def test_optimum_of_totally_ordered_problems(problem: Problem, utility: Utility) -> None:
+    check_optimal(problem, utility, solve(problem, utility))
+
+
+@given(problem=problems(orders=("none", "partial")), utility=utilities())
+def test_optimum_of_partially_ordered_problems(problem: Problem, utility: Utility) -> None:
+    check_optimal(problem, utility, solve(problem, utility))
+
+
+@pytest.mark.parametrize("heuristic", [name for name in ADMISSIBLE if name != "blind"])
+@pytest.mark.parametrize("switch", ["tdg_bound", "inherit_h"])
+@given(problem=problems(), utility=utilities())
+def test_optimum_without_a_refinement(switch: str, heuristic: str, problem: Problem, utility: Utility) -> None:
+    optimum = brute_force(problem, utility)
+    switches = SearchSwitches(**{switch: False})
+    limits = Limits.starting_now(SECONDS)
+    outcome = find_plans(ground(problem), utility, heuristic=heuristic, limits=limits, switches=switches)
+    if outcome.status is Status.TIME_LIMIT:
+        return
+    if optimum is None:
+        assert outcome.plan is None
+    else:
+        assert outcome.plan is not None
+        assert validate(problem, outcome.plan).risk_cost(utility) == close_to(optimum)
+
+
+@given(problem=problems(), utility=utilities())
+def test_weighted_search_keeps_its_promise(problem: Problem, utility: Utility) -> None:
+    result = solve(problem, utility, search="weighted", weight=3.0)
+    optimum = brute_force(problem, utility)
+    assert (result.plan is None) == (optimum is None)
+    if optimum is not None:
+        assert result.plan is not None
+        assert validate(problem, result.plan).valid
+        assert result.lower_bound <= optimum * (1 + 1e-9) + 1e-9
+        assert optimum - 1e-9 <= result.risk_cost * (1 + 1e-9)
+        assert result.risk_cost <= 3 * optimum * (1 + 1e-9) + 1e-9
+
+
+@given(problem=problems(), utility=utilities())
+def test_greedy_search_finds_a_plan_where_there_is_one(problem: Problem, utility: Utility) -> None:
+    result = solve(problem, utility, search="greedy")
+    optimum = brute_force(problem, utility)
+    assert (result.plan is None) == (optimum is None)
+    if optimum is not None:
+        assert result.plan is not None
+        assert validate(problem, result.plan).valid
+        assert result.risk_cost >= optimum * (1 - 1e-9) - 1e-9
