@@ -29,7 +29,8 @@ public:
           bounds_(relax::tdg_bound(problem, costs)),
           heuristic_(relax::make_heuristic(kind, problem, costs, limits_)) {}
 
-    std::optional<relax::Cost> evaluate(const std::vector<relax::FactId>& facts, const std::vector<relax::TaskId>& tasks) {
+    std::optional<relax::Cost> evaluate(const std::vector<relax::FactId>& facts,
+                                        const std::vector<relax::TaskId>& tasks) {
         relax::StateBits state(relax::StateTransition(problem_).word_count(), 0);
         for (const relax::FactId fact : facts) {
             if (fact >= problem_.fact_count()) {
@@ -124,8 +125,8 @@ void bind_find_plans(nb::module_& module) {
         .def_ro("plan", &relax::SearchResult::plan);
 
     nb::class_<Evaluator>(module, "Evaluator")
-        .def(nb::init<const relax::GroundProblem&, const std::vector<relax::Cost>&, relax::HeuristicKind>(), "problem"_a,
-             "costs"_a, "kind"_a, nb::keep_alive<1, 2>())
+        .def(nb::init<const relax::GroundProblem&, const std::vector<relax::Cost>&, relax::HeuristicKind>(),
+             "problem"_a, "costs"_a, "kind"_a, nb::keep_alive<1, 2>())
         .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a);
 
     module.def("find_plans", &find_plans, "problem"_a, "costs"_a, "options"_a, "seconds"_a = nb::none(),

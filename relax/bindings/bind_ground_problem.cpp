@@ -34,10 +34,12 @@ auto row(const GroundProblem& problem, std::size_t index) {
     return std::vector(values.begin(), values.end());
 }
 
-using GroundingResult = std::variant<GroundProblem, relax::StopReason, std::tuple<std::uint32_t, std::vector<relax::ObjectId>>>;
+using GroundingResult =
+    std::variant<GroundProblem, relax::StopReason, std::tuple<std::uint32_t, std::vector<relax::ObjectId>>>;
 
 // Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases.
-GroundingResult ground(const relax::LiftedProblem& problem, std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
+GroundingResult ground(const relax::LiftedProblem& problem, std::optional<double> seconds,
+                       std::optional<std::size_t> memory_bytes) {
     relax::Limits limits = python_limits(seconds, memory_bytes);
     std::variant<GroundProblem, relax::StopReason, relax::TooManyCasesOf> result;
     {
@@ -73,8 +75,10 @@ void bind_ground_problem(nb::module_& module) {
         .def_ro("initial_state", &GroundProblem::initial_state)
         .def_ro("initial_task", &GroundProblem::initial_task)
         .def_ro("solvable", &GroundProblem::solvable)
-        .def("method_task", [](const GroundProblem& problem, std::size_t method) { return problem.method_task.at(method); })
-        .def("method_schema", [](const GroundProblem& problem, std::size_t method) { return problem.method_schema.at(method); })
+        .def("method_task",
+             [](const GroundProblem& problem, std::size_t method) { return problem.method_task.at(method); })
+        .def("method_schema",
+             [](const GroundProblem& problem, std::size_t method) { return problem.method_schema.at(method); })
         .def("method_is_choice",
              [](const GroundProblem& problem, std::size_t method) { return bool(problem.method_is_choice.at(method)); })
         .def("effects",

@@ -27,10 +27,11 @@ std::vector<LiftedVariable> variables_of(const Pairs& pairs) {
     return variables;
 }
 
-void add_method(relax::LiftedProblem& problem, Numbers parameters, std::uint32_t slot_count, std::uint32_t task, Terms arguments,
-                Formula constraints, const std::vector<std::pair<std::uint32_t, Terms>>& subtasks, Pairs ordering) {
-    relax::LiftedMethod method{std::move(parameters),  slot_count, task, std::move(arguments),
-                               std::move(constraints), {},         std::move(ordering)};
+void add_method(relax::LiftedProblem& problem, Numbers parameters, std::uint32_t slot_count, std::uint32_t task,
+                Terms arguments, Formula constraints, const std::vector<std::pair<std::uint32_t, Terms>>& subtasks,
+                Pairs ordering) {
+    relax::LiftedMethod method{
+        std::move(parameters), slot_count, task, std::move(arguments), std::move(constraints), {}, std::move(ordering)};
     for (const auto& [subtask, terms] : subtasks) {
         method.subtasks.push_back({subtask, terms});
     }
@@ -57,15 +58,16 @@ void bind_lifted_problem(nb::module_& module) {
                const Pairs& variables) {
                 new (self) Formula{kind, std::move(operands), symbol, std::move(terms), variables_of(variables)};
             },
-            "kind"_a, "operands"_a = std::vector<Formula>{}, "symbol"_a = 0, "terms"_a = Terms{}, "variables"_a = Pairs{});
+            "kind"_a, "operands"_a = std::vector<Formula>{}, "symbol"_a = 0, "terms"_a = Terms{},
+            "variables"_a = Pairs{});
 
     nb::class_<relax::LiftedEffect>(module, "LiftedEffect")
         .def(
             "__init__",
-            [](relax::LiftedEffect* self, const Pairs& variables, Formula condition, std::uint32_t predicate, Terms arguments,
-               bool positive) {
-                new (self) relax::LiftedEffect{variables_of(variables), std::move(condition), predicate, std::move(arguments),
-                                               positive};
+            [](relax::LiftedEffect* self, const Pairs& variables, Formula condition, std::uint32_t predicate,
+               Terms arguments, bool positive) {
+                new (self) relax::LiftedEffect{variables_of(variables), std::move(condition), predicate,
+                                               std::move(arguments), positive};
             },
             "variables"_a, "condition"_a, "predicate"_a, "arguments"_a, "positive"_a);
 
@@ -94,8 +96,9 @@ void bind_lifted_problem(nb::module_& module) {
             },
             "parameters"_a, "slot_count"_a, "precondition"_a, "effects"_a, "cost_conditions"_a, "is_artificial"_a)
         .def(
-            "add_task", [](relax::LiftedProblem& self, Numbers parameters) { self.tasks.push_back({std::move(parameters)}); },
+            "add_task",
+            [](relax::LiftedProblem& self, Numbers parameters) { self.tasks.push_back({std::move(parameters)}); },
             "parameters"_a)
-        .def("add_method", &add_method, "parameters"_a, "slot_count"_a, "task"_a, "arguments"_a, "constraints"_a, "subtasks"_a,
-             "ordering"_a);
+        .def("add_method", &add_method, "parameters"_a, "slot_count"_a, "task"_a, "arguments"_a, "constraints"_a,
+             "subtasks"_a, "ordering"_a);
 }

@@ -12,9 +12,9 @@
 
 #include "relax/limits.hpp"
 
-// Limits for a computation that runs without the GIL: `seconds` from now, `bytes` of resident memory. Now and then the GIL is
-// taken, signals are handled and `watch` is called; a KeyboardInterrupt ends the computation with its result so far, any other
-// exception ends it and is raised.
+// Limits for a computation that runs without the GIL: `seconds` from now, `bytes` of resident memory. Now and then the
+// GIL is taken, signals are handled and `watch` is called; a KeyboardInterrupt ends the computation with its result so
+// far, any other exception ends it and is raised.
 inline relax::Limits python_limits(std::optional<double> seconds, std::optional<std::size_t> bytes,
                                    std::function<void()> watch = {}) {
     namespace nb = nanobind;
@@ -22,7 +22,8 @@ inline relax::Limits python_limits(std::optional<double> seconds, std::optional<
     if (seconds) {
         constexpr double kMostSeconds = 1e9;  // some thirty years, well within what the clock can hold
         const std::chrono::duration<double> span(std::min(*seconds, kMostSeconds));
-        limits.deadline = relax::Limits::Clock::now() + std::chrono::duration_cast<relax::Limits::Clock::duration>(span);
+        limits.deadline =
+            relax::Limits::Clock::now() + std::chrono::duration_cast<relax::Limits::Clock::duration>(span);
     }
     limits.memory_bytes = bytes;
     limits.poll = [watch = std::move(watch)] {

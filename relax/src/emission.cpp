@@ -23,8 +23,13 @@ void sort_unique(std::vector<Value>& values) {
 
 class Emitter {
 public:
-    Emitter(const Reachability& reachability, const CaseBuilder& facts, std::vector<ActionCase> cases, const Pruned& pruned)
-        : reachability_(reachability), lifted_(reachability.problem()), facts_(facts), cases_(std::move(cases)), pruned_(pruned) {}
+    Emitter(const Reachability& reachability, const CaseBuilder& facts, std::vector<ActionCase> cases,
+            const Pruned& pruned)
+        : reachability_(reachability),
+          lifted_(reachability.problem()),
+          facts_(facts),
+          cases_(std::move(cases)),
+          pruned_(pruned) {}
 
     GroundProblem run() {
         if (!pruned_.solvable) {
@@ -44,7 +49,8 @@ public:
     }
 
 private:
-    // Sort the cases by instance; simplify them; drop doubles, and all cases of artificial actions that are always applicable.
+    // Sort the cases by instance; simplify them; drop doubles, and all cases of artificial actions that are always
+    // applicable.
     void keep_living_cases() {
         std::vector<ActionCase> living;
         for (std::size_t index = 0; index < cases_.size(); ++index) {
@@ -66,9 +72,11 @@ private:
             const std::size_t first = cases_.size();
             const bool is_dropped = is_trivial && lifted_.actions[living[begin].instance.task].is_artificial;
             for (; begin < end; ++begin) {
-                const bool is_double = std::any_of(cases_.begin() + static_cast<std::ptrdiff_t>(first), cases_.end(), [&](const ActionCase& other) {
-                    return other.precondition == living[begin].precondition && other.cost_parts == living[begin].cost_parts;
-                });
+                const bool is_double = std::any_of(cases_.begin() + static_cast<std::ptrdiff_t>(first), cases_.end(),
+                                                   [&](const ActionCase& other) {
+                                                       return other.precondition == living[begin].precondition &&
+                                                              other.cost_parts == living[begin].cost_parts;
+                                                   });
                 if (!is_dropped && !is_double) {
                     cases_.push_back(std::move(living[begin]));
                 }
@@ -94,7 +102,8 @@ private:
         ActionCase::Effect unconditional;
         std::vector<ActionCase::Effect> conditional;
         for (ActionCase::Effect& effect : one.effects) {
-            std::erase_if(effect.deletes, [&](FactId fact) { return std::binary_search(always.begin(), always.end(), fact); });
+            std::erase_if(effect.deletes,
+                          [&](FactId fact) { return std::binary_search(always.begin(), always.end(), fact); });
             if (effect.condition.empty()) {
                 unconditional.deletes.insert(unconditional.deletes.end(), effect.deletes.begin(), effect.deletes.end());
             } else {
@@ -126,9 +135,8 @@ private:
                     const auto is_read = [this](FactId fact) { return fact_number_[fact] != kNone; };
                     if (std::any_of(effect.adds.begin(), effect.adds.end(), is_read) ||
                         std::any_of(effect.deletes.begin(), effect.deletes.end(), is_read)) {
-                        changed = changed || !std::all_of(effect.condition.begin(), effect.condition.end(), [&](Literal literal) {
-                            return is_read(fact_of(literal));
-                        });
+                        changed = changed || !std::all_of(effect.condition.begin(), effect.condition.end(),
+                                                          [&](Literal literal) { return is_read(fact_of(literal)); });
                         read(effect.condition);
                     }
                 }
@@ -244,10 +252,9 @@ private:
     }
 
     void emit_choice(TaskId compound) {
-        const auto first = std::lower_bound(cases_.begin(), cases_.end(), compounds_[compound],
-                                            [](const ActionCase& one, const TaskInstance& wanted) {
-                                                return comes_before(one.instance, wanted);
-                                            });
+        const auto first = std::lower_bound(
+            cases_.begin(), cases_.end(), compounds_[compound],
+            [](const ActionCase& one, const TaskInstance& wanted) { return comes_before(one.instance, wanted); });
         for (auto one = first; one != cases_.end() && one->instance == compounds_[compound]; ++one) {
             begin_method(static_cast<TaskId>(cases_.size()) + compound, compounds_[compound].task, true);
             out_.method_arguments.finish_row();
@@ -329,7 +336,8 @@ private:
 
 }  // namespace
 
-GroundProblem emit(const Reachability& reachability, const CaseBuilder& facts, std::vector<ActionCase> cases, const Pruned& pruned) {
+GroundProblem emit(const Reachability& reachability, const CaseBuilder& facts, std::vector<ActionCase> cases,
+                   const Pruned& pruned) {
     return Emitter(reachability, facts, std::move(cases), pruned).run();
 }
 

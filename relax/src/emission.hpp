@@ -11,7 +11,8 @@
 namespace relax {
 
 // Number what is left and lay it out in flat arrays; literals that are certain and facts that nothing reads vanish.
-GroundProblem emit(const Reachability& reachability, const CaseBuilder& facts, std::vector<ActionCase> cases, const Pruned& pruned);
+GroundProblem emit(const Reachability& reachability, const CaseBuilder& facts, std::vector<ActionCase> cases,
+                   const Pruned& pruned);
 
 }  // namespace relax
 

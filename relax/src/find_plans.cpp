@@ -28,8 +28,8 @@ SearchStatus status_of(StopReason reason) {
 
 }  // namespace
 
-FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
-                     SearchStatistics& statistics)
+FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
+                     Limits& limits, SearchStatistics& statistics)
     : problem_(problem),
       costs_(std::move(costs)),
       options_(options),
@@ -117,8 +117,8 @@ bool FindPlans::evaluate(NodeId id) {
     }
     tasks_.clear();
     progression_.networks().tasks(node.network, tasks_);
-    const auto h = heuristic_->evaluate(
-        {progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
+    const auto h =
+        heuristic_->evaluate({progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
     ++statistics_.evaluated;
     node.is_evaluated = true;
     if (!h) {
@@ -186,7 +186,8 @@ Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor
 // No plan through this node is better than what is known.
 bool FindPlans::is_too_dear(const SearchNode& node) const {
     const Cost f = add_bounds(node.g, node.h);
-    return f >= kDeadEnd || (options_.upper_bound && f >= *options_.upper_bound) || (statistics_.best && f >= *statistics_.best);
+    return f >= kDeadEnd || (options_.upper_bound && f >= *options_.upper_bound) ||
+           (statistics_.best && f >= *statistics_.best);
 }
 
 Cost FindPlans::priority(NodeId id) const {
@@ -197,7 +198,8 @@ Cost FindPlans::priority(NodeId id) const {
             return node.g + estimate;
         case SearchAlgorithm::Weighted: {
             const double weighted = std::ceil(options_.weight * static_cast<double>(estimate));
-            return add_bounds(node.g, weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
+            return add_bounds(node.g,
+                              weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
         }
         case SearchAlgorithm::Greedy:
             break;

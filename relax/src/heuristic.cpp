@@ -35,12 +35,14 @@ private:
     HMax hmax_;
 };
 
-// LM-cut on what a decomposition costs beyond the cheapest one. Every method costs its slack, the sum of its subtasks' bounds less
-// its task's, and actions are free: a plan costs the sum of the network's bounds and of the slacks of the methods it uses.
+// LM-cut on what a decomposition costs beyond the cheapest one. Every method costs its slack, the sum of its subtasks'
+// bounds less its task's, and actions are free: a plan costs the sum of the network's bounds and of the slacks of the
+// methods it uses.
 class SlackLmCut final : public Heuristic {
 public:
     SlackLmCut(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
-        : lm_cut_(problem, std::vector<Cost>(problem.action_count(), 0), limits, slacks(problem, tdg_bound(problem, costs))) {}
+        : lm_cut_(problem, std::vector<Cost>(problem.action_count(), 0), limits,
+                  slacks(problem, tdg_bound(problem, costs))) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = lm_cut_.evaluate(node);

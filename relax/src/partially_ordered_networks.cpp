@@ -68,7 +68,8 @@ TaskId PartiallyOrderedNetworks::task(const Record& record, std::uint32_t index)
     return static_cast<TaskId>(tasks[index / 2] >> (index % 2 * 32));
 }
 
-// Draft the network without an unconstrained occurrence, and with the method's subtasks, where one is given, in its place.
+// Draft the network without an unconstrained occurrence, and with the method's subtasks, where one is given, in its
+// place.
 void PartiallyOrderedNetworks::replace(NetworkId network, std::uint32_t index, std::optional<MethodId> method) {
     const Record& record = records_[network];
     const auto subtasks = method ? problem_.method_subtasks[*method] : std::span<const TaskId>{};

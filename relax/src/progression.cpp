@@ -55,7 +55,9 @@ std::optional<Occurrence> Progression::compound_to_decompose() const {
 
 Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {
     transition_.apply(occurrence.task, states_[state], next_);
-    return {states_.intern(next_), networks_->progress(network, occurrence.index), costs_[occurrence.task],
+    return {states_.intern(next_),
+            networks_->progress(network, occurrence.index),
+            costs_[occurrence.task],
             {occurrence.index, std::nullopt}};
 }
 

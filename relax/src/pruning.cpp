@@ -9,7 +9,10 @@ namespace {
 class Pruner {
 public:
     Pruner(const Reachability& reachability, const CaseBuilder& facts, const std::vector<ActionCase>& cases)
-        : reachability_(reachability), facts_(facts), cases_(cases), action_count_(reachability.problem().actions.size()) {
+        : reachability_(reachability),
+          facts_(facts),
+          cases_(cases),
+          action_count_(reachability.problem().actions.size()) {
         pruned_.case_lives.assign(cases.size(), true);
         pruned_.method_lives.assign(reachability.methods().size(), true);
         TupleId offset = 0;
@@ -32,12 +35,13 @@ public:
 private:
     std::size_t number(const TaskInstance& instance) const { return offsets_[instance.task] + instance.tuple; }
 
-    // Relaxed reachability over literals of both signs: a case's effects happen once its precondition and their condition can.
+    // Relaxed reachability over literals of both signs: a case's effects happen once its precondition and their
+    // condition can.
     bool drop_unreachable_cases() {
         auto& can_hold = pruned_.can_hold;
         can_hold.assign(2 * facts_.fact_count(), false);
-        std::vector<std::vector<std::uint32_t>> waiting(can_hold.size());  // by Literal: nodes that need it
-        std::vector<std::uint32_t> missing;                                // by node: literals not yet reached
+        std::vector<std::vector<std::uint32_t>> waiting(can_hold.size());      // by Literal: nodes that need it
+        std::vector<std::uint32_t> missing;                                    // by node: literals not yet reached
         std::vector<std::pair<std::size_t, const ActionCase::Effect*>> nodes;  // a case, or one of its effects
         std::vector<std::uint32_t> ready;
         std::vector<Literal> queue;
@@ -115,7 +119,8 @@ private:
     bool keep_finite_and_needed() {
         const auto& methods = reachability_.methods();
         std::vector<bool> finite(instance_count_, false);
-        std::vector<std::vector<std::size_t>> waiting(instance_count_);  // by instance: methods, once for each occurrence
+        std::vector<std::vector<std::size_t>> waiting(
+            instance_count_);  // by instance: methods, once for each occurrence
         std::vector<std::size_t> missing(methods.size(), 0);
         std::vector<std::size_t> queue;
         const auto finish = [&](std::size_t instance) {

@@ -20,8 +20,8 @@ struct Pruned {
     bool is_certain(Literal literal) const { return !can_hold[literal ^ 1U]; }
 };
 
-// Drop, until nothing changes, action cases that cannot be reached by the others, methods that contain a task without a finite
-// decomposition, and whatever the initial task does not lead to.
+// Drop, until nothing changes, action cases that cannot be reached by the others, methods that contain a task without a
+// finite decomposition, and whatever the initial task does not lead to.
 Pruned prune(const Reachability& reachability, const CaseBuilder& facts, const std::vector<ActionCase>& cases);
 
 }  // namespace relax

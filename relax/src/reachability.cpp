@@ -376,7 +376,11 @@ void Reachability::expand(TaskInstance instance) {
         }
         method_plans_[schema].front().run(binding, [&](std::span<const ObjectId> solution) {
             check_limits();
-            MethodInstance made{schema, instance, {solution.begin(), solution.begin() + static_cast<std::ptrdiff_t>(method.parameters.size())}, {}};
+            MethodInstance made{
+                schema,
+                instance,
+                {solution.begin(), solution.begin() + static_cast<std::ptrdiff_t>(method.parameters.size())},
+                {}};
             std::vector<ObjectId> tuple;
             for (const LiftedSubtask& subtask : method.subtasks) {
                 tuple.clear();
@@ -401,7 +405,8 @@ void Reachability::need(const TaskInstance& instance) {
 
 bool Reachability::has_fluent(const Formula& formula) const {
     return (formula.kind == FormulaKind::Atom && !is_static(formula.symbol)) ||
-           std::any_of(formula.operands.begin(), formula.operands.end(), [this](const Formula& operand) { return has_fluent(operand); });
+           std::any_of(formula.operands.begin(), formula.operands.end(),
+                       [this](const Formula& operand) { return has_fluent(operand); });
 }
 
 bool Reachability::is_possible(const Formula& formula, Binding& binding, bool negated) const {

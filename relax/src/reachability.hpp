@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "relation.hpp"
-#include "rule.hpp"
 #include "relax/lifted_problem.hpp"
 #include "relax/limits.hpp"
+#include "rule.hpp"
 
 namespace relax {
 
@@ -32,10 +32,10 @@ struct MethodInstance {
     std::vector<TaskInstance> subtasks;
 };
 
-// Relaxed reachability: which facts, actions and tasks there can be at all, if nothing that became true ever becomes false and
-// every task that can be accomplished somewhere can be accomplished anywhere. First bottom-up over facts, actions and tasks (as a
-// semi-naive evaluation of rules: every new tuple is joined with what is there), then top-down from the initial task, where
-// the methods' instances are made.
+// Relaxed reachability: which facts, actions and tasks there can be at all, if nothing that became true ever becomes
+// false and every task that can be accomplished somewhere can be accomplished anywhere. First bottom-up over facts,
+// actions and tasks (as a semi-naive evaluation of rules: every new tuple is joined with what is there), then top-down
+// from the initial task, where the methods' instances are made.
 class Reachability {
 public:
     Reachability(const LiftedProblem& problem, Limits& limits);
@@ -49,7 +49,8 @@ public:
     const Relation& instances(std::uint32_t task) const { return relations_[problem_.predicate_count + task]; }
     // By fluent predicate: how many of its tuples are facts of the initial state; they come first.
     std::size_t initial_count(std::uint32_t predicate) const { return initial_count_[predicate]; }
-    // What is needed by the initial task, in the order in which it was found. Empty if the initial task is out of reach.
+    // What is needed by the initial task, in the order in which it was found. Empty if the initial task is out of
+    // reach.
     const std::vector<TaskInstance>& needed() const { return needed_; }
     const std::vector<MethodInstance>& methods() const { return methods_; }
 
@@ -94,18 +95,18 @@ private:
     const LiftedProblem& problem_;
     Limits& limits_;
     Domains domains_;
-    std::vector<bool> is_added_;    // by predicate
-    std::vector<bool> is_deleted_;  // by predicate
+    std::vector<bool> is_added_;       // by predicate
+    std::vector<bool> is_deleted_;     // by predicate
     std::vector<Relation> relations_;  // predicates, then tasks
     std::vector<std::size_t> initial_count_;
-    std::deque<TaskRule> rules_;       // actions, then methods; a deque, since plans point into it
-    std::vector<std::vector<Trigger>> triggers_;  // by relation
-    std::vector<Relation> candidates_;            // by action: instances whose joins succeed
-    std::vector<TaskInstance> waiting_;           // candidates whose other conditions are not yet possible
-    std::vector<TaskInstance> unfinished_;        // actions some of whose conditional effects are not yet possible
+    std::deque<TaskRule> rules_;                       // actions, then methods; a deque, since plans point into it
+    std::vector<std::vector<Trigger>> triggers_;       // by relation
+    std::vector<Relation> candidates_;                 // by action: instances whose joins succeed
+    std::vector<TaskInstance> waiting_;                // candidates whose other conditions are not yet possible
+    std::vector<TaskInstance> unfinished_;             // actions some of whose conditional effects are not yet possible
     std::vector<std::vector<JoinPlan>> method_plans_;  // by method: one plan, given the task's arguments
     std::vector<std::vector<std::uint32_t>> methods_of_;  // by compound task
-    std::vector<std::vector<bool>> is_needed_;  // by task, by tuple
+    std::vector<std::vector<bool>> is_needed_;            // by task, by tuple
     std::vector<TaskInstance> needed_;
     std::vector<MethodInstance> methods_;
 };
@@ -115,7 +116,8 @@ std::vector<std::uint32_t> free_slots(const Formula& formula);
 
 // Call `visit` with every binding of the variables from their domains; a false answer ends it and is returned.
 template <typename Visitor>
-bool for_all_objects(std::span<const LiftedVariable> variables, const Domains& domains, std::span<ObjectId> binding, Visitor visit) {
+bool for_all_objects(std::span<const LiftedVariable> variables, const Domains& domains, std::span<ObjectId> binding,
+                     Visitor visit) {
     if (variables.empty()) {
         return visit();
     }

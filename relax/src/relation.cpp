@@ -82,9 +82,8 @@ void Relation::add_to_index(Index& index, TupleId id) {
         return;
     }
     index.first.push_back(id);
-    index.buckets.add(hash_objects(key), static_cast<std::uint32_t>(index.first.size() - 1), [&](std::uint32_t bucket) {
-        return hash_key(index, (*this)[index.first[bucket]]);
-    });
+    index.buckets.add(hash_objects(key), static_cast<std::uint32_t>(index.first.size() - 1),
+                      [&](std::uint32_t bucket) { return hash_key(index, (*this)[index.first[bucket]]); });
 }
 
 }  // namespace relax

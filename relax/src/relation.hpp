@@ -14,8 +14,8 @@ namespace relax {
 
 using TupleId = std::uint32_t;
 
-// A growing set of tuples of objects, with indexes on chosen positions. Tuples are kept in order of insertion; joins see only
-// those that have been shown.
+// A growing set of tuples of objects, with indexes on chosen positions. Tuples are kept in order of insertion; joins
+// see only those that have been shown.
 class Relation {
 public:
     explicit Relation(std::size_t arity) : arity_(arity) {}
@@ -34,7 +34,8 @@ public:
     // An index on these positions (in ascending order); the same one for the same positions.
     std::uint32_t index_on(const std::vector<std::uint32_t>& positions);
 
-    // Visit every shown tuple whose objects at the index's positions are those of the key. The visitor may insert tuples.
+    // Visit every shown tuple whose objects at the index's positions are those of the key. The visitor may insert
+    // tuples.
     template <typename Visitor>
     void for_each_match(std::uint32_t index, std::span<const ObjectId> key, Visitor visit) const {
         const Index& chosen = indexes_[index];

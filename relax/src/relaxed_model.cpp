@@ -31,7 +31,8 @@ void sort_unique(std::vector<Value>& values) {
 
 }  // namespace
 
-RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs, std::span<const Cost> method_costs)
+RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs,
+                           std::span<const Cost> method_costs)
     : state_fact_count(problem.fact_count()), complement_of_(problem.fact_count(), kAlwaysTrue) {
     std::vector<FactId> negative;
     for (ActionId action = 0; action < problem.action_count(); ++action) {

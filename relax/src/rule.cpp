@@ -45,9 +45,8 @@ std::size_t JoinPlan::choose_next(const std::vector<bool>& bound, const std::vec
             continue;
         }
         const auto& terms = rule_.body[atom].terms;
-        const auto fixed = std::count_if(terms.begin(), terms.end(), [&](Term term) {
-            return term < 0 || bound[static_cast<std::size_t>(term)];
-        });
+        const auto fixed = std::count_if(terms.begin(), terms.end(),
+                                         [&](Term term) { return term < 0 || bound[static_cast<std::size_t>(term)]; });
         const double size = std::max<double>(2, static_cast<double>(relations_[rule_.body[atom].relation].size()));
         const double open = terms.empty() ? 0 : 1 - static_cast<double>(fixed) / static_cast<double>(terms.size());
         const double expected = std::pow(size, open);
@@ -87,7 +86,8 @@ std::vector<std::size_t> JoinPlan::ready_filters(const std::vector<bool>& bound)
     std::vector<std::size_t> ready;
     for (std::size_t filter = 0; filter < rule_.filters.size(); ++filter) {
         const auto& slots = rule_.filters[filter].slots;
-        if (!filter_used_[filter] && std::all_of(slots.begin(), slots.end(), [&](std::uint32_t slot) { return bound[slot]; })) {
+        if (!filter_used_[filter] &&
+            std::all_of(slots.begin(), slots.end(), [&](std::uint32_t slot) { return bound[slot]; })) {
             filter_used_[filter] = true;
             ready.push_back(filter);
         }

@@ -21,8 +21,8 @@ inline ObjectId value_of(Term term, std::span<const ObjectId> binding) {
     return term < 0 ? static_cast<ObjectId>(~term) : binding[static_cast<std::size_t>(term)];
 }
 
-// A conjunctive query over relations: all bindings of the parameters, each from its domain, for which the body's atoms are in
-// their relations and no filter objects.
+// A conjunctive query over relations: all bindings of the parameters, each from its domain, for which the body's atoms
+// are in their relations and no filter objects.
 struct Rule {
     struct Atom {
         std::uint32_t relation;
@@ -56,8 +56,8 @@ private:
 class JoinPlan {
 public:
     // `done`: the atom that is already matched, if any. Creates the indexes that it needs.
-    JoinPlan(const Rule& rule, std::vector<bool> bound, std::optional<std::size_t> done, std::vector<Relation>& relations,
-             const Domains& domains);
+    JoinPlan(const Rule& rule, std::vector<bool> bound, std::optional<std::size_t> done,
+             std::vector<Relation>& relations, const Domains& domains);
 
     // Visit every solution that extends the binding; false from the visitor ends the search. The binding is restored.
     using Visitor = std::function<bool(std::span<const ObjectId>)>;
@@ -67,9 +67,9 @@ private:
     struct Step {
         std::uint32_t relation;
         std::uint32_t index;
-        std::vector<Term> key;                                            // for the index's positions
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> binds;       // position, slot
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> repeats;     // position, slot bound earlier in the same atom
+        std::vector<Term> key;                                         // for the index's positions
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> binds;    // position, slot
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> repeats;  // position, slot bound earlier in the same atom
         std::vector<std::size_t> filters;
     };
     struct Free {

@@ -28,10 +28,12 @@ bool StateTransition::is_applicable(ActionId action, std::span<const std::uint64
     const auto is_true = [state](FactId fact) { return holds(state, fact); };
     const auto needed = problem_.preconditions[action];
     const auto forbidden = problem_.negative_preconditions[action];
-    return std::all_of(needed.begin(), needed.end(), is_true) && std::none_of(forbidden.begin(), forbidden.end(), is_true);
+    return std::all_of(needed.begin(), needed.end(), is_true) &&
+           std::none_of(forbidden.begin(), forbidden.end(), is_true);
 }
 
-void StateTransition::apply(ActionId action, std::span<const std::uint64_t> state, std::span<std::uint64_t> next) const {
+void StateTransition::apply(ActionId action, std::span<const std::uint64_t> state,
+                            std::span<std::uint64_t> next) const {
     std::copy(state.begin(), state.end(), next.begin());
     const EffectId begin = problem_.effect_begin[action];
     const EffectId end = problem_.effect_begin[action + 1];
@@ -55,14 +57,14 @@ bool StateTransition::fires(EffectId effect, std::span<const std::uint64_t> stat
     const auto is_true = [state](FactId fact) { return holds(state, fact); };
     const auto needed = problem_.effect_conditions[effect];
     const auto forbidden = problem_.effect_negative_conditions[effect];
-    return std::all_of(needed.begin(), needed.end(), is_true) && std::none_of(forbidden.begin(), forbidden.end(), is_true);
+    return std::all_of(needed.begin(), needed.end(), is_true) &&
+           std::none_of(forbidden.begin(), forbidden.end(), is_true);
 }
 
 StateId StateRegistry::intern(std::span<const std::uint64_t> state) {
     const std::uint64_t hash = hash_words(state);
-    const auto known = table_.find(hash, [&](StateId id) {
-        return std::equal(state.begin(), state.end(), (*this)[id].begin());
-    });
+    const auto known =
+        table_.find(hash, [&](StateId id) { return std::equal(state.begin(), state.end(), (*this)[id].begin()); });
     if (known) {
         return *known;
     }

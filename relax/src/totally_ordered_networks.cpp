@@ -87,7 +87,8 @@ NetworkId TotallyOrderedNetworks::decompose(NetworkId network, std::uint32_t /*i
 
 NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
     const std::uint64_t hash = hash_cell(first, rest);
-    const auto known = table_.find(hash, [&](NetworkId id) { return cells_[id].first == first && cells_[id].rest == rest; });
+    const auto known =
+        table_.find(hash, [&](NetworkId id) { return cells_[id].first == first && cells_[id].rest == rest; });
     if (known) {
         return *known;
     }

@@ -116,10 +116,11 @@ int main() {
     int passed = 0;
     int failed = 0;
     for (const bool ordered : {true, false}) {
-        for (const auto heuristic : {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg, relax::HeuristicKind::HMax,
-                                     relax::HeuristicKind::LmCut, relax::HeuristicKind::Add, relax::HeuristicKind::Ff}) {
-            for (const auto algorithm : {relax::SearchAlgorithm::AStar, relax::SearchAlgorithm::Weighted,
-                                         relax::SearchAlgorithm::Greedy}) {
+        for (const auto heuristic :
+             {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg, relax::HeuristicKind::HMax,
+              relax::HeuristicKind::LmCut, relax::HeuristicKind::Add, relax::HeuristicKind::Ff}) {
+            for (const auto algorithm :
+                 {relax::SearchAlgorithm::AStar, relax::SearchAlgorithm::Weighted, relax::SearchAlgorithm::Greedy}) {
                 ++(solve(ordered, heuristic, algorithm) ? passed : failed);
             }
         }

@@ -146,9 +146,11 @@ class HeuristicKind(enum.Enum):
 
     LmCut = 3
 
-    Add = 4
+    Potential = 4
 
-    Ff = 5
+    Add = 5
+
+    Ff = 6
 
 class SearchAlgorithm(enum.Enum):
     AStar = 0

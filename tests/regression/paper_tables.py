@@ -38,7 +38,7 @@ def instances(domain: str) -> list[str]:
 
 @cache
 def solve(domain: str, instance: str, attitude: str, alpha: float | None, heuristic: str = "lmcut") -> Result:
-    """Return the proven best plan; solved once per session."""
+    """Return the proven best plan; solved once per run of the tests."""
     result = statehtn.plan(problem(domain, instance), attitude=attitude, alpha=alpha, heuristic=heuristic)
     assert result.status == "optimal"
     assert result.plan is not None

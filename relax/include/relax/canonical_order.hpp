@@ -31,7 +31,8 @@ struct OrderedTasks {
 };
 
 // Finds an order of the occurrences that depends on the network's structure alone, as far as colour refinement with
-// individualisation can tell: by number of predecessors, then by colour. Interchangeable occurrences may come in any order.
+// individualisation can tell: by number of predecessors, then by colour. Interchangeable occurrences may come in any
+// order.
 class CanonicalOrder {
 public:
     // Returns the old index for each new one; valid until the next call.

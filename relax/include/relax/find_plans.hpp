@@ -24,16 +24,16 @@ enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy };
 struct SearchOptions {
     HeuristicKind heuristic = HeuristicKind::LmCut;
     SearchAlgorithm algorithm = SearchAlgorithm::AStar;
-    double weight = 1.0;         // of h, for Weighted; at least 1
-    bool use_tdg_bound = true;   // bound nodes by the decomposition graph before the heuristic is asked
-    bool inherit_h = true;       // a node's h is at least its parent's less the cost of the step
+    double weight = 1.0;              // of h, for Weighted; at least 1
+    bool use_tdg_bound = true;        // bound nodes by the decomposition graph before the heuristic is asked
+    bool inherit_h = true;            // a node's h is at least its parent's less the cost of the step
     std::optional<Cost> upper_bound;  // only plans that cost less are wanted
 };
 
-// FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower bound
-// until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristic is asked, and if f
-// rises they are put back. A pair of state and network is kept once and
-// reopened when a cheaper way to it turns up.
+// FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower
+// bound until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristic is
+// asked, and if f rises they are put back. A pair of state and network is kept once and reopened when a cheaper way to
+// it turns up.
 //
 // Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
 class FindPlans {

@@ -23,10 +23,12 @@ struct GroundProblem {
     // By ActionId.
     Rows<FactId> preconditions;
     Rows<FactId> negative_preconditions;
-    std::vector<EffectId> effect_begin;  // one more entry than there are actions: effects of `a` are [begin[a], begin[a + 1])
+    std::vector<EffectId>
+        effect_begin;  // one more entry than there are actions: effects of `a` are [begin[a], begin[a + 1])
     std::vector<std::uint32_t> action_schema;
     Rows<ObjectId> action_arguments;
-    // Which conditional parts of the cost are due: records of the part's number, the number of its variables, their objects.
+    // Which conditional parts of the cost are due: records of the part's number, the number of its variables, their
+    // objects.
     Rows<std::uint32_t> action_cost_parts;
 
     // By EffectId. Conditions are read in the state before the action; adding wins over deleting, also across effects.
@@ -36,22 +38,24 @@ struct GroundProblem {
     Rows<FactId> effect_deletes;
 
     // By compound task: index 0 is task number action_count().
-    std::vector<std::uint32_t> compound_schema;   // as in LiftedSubtask::task: an action's number for a choice
+    std::vector<std::uint32_t> compound_schema;  // as in LiftedSubtask::task: an action's number for a choice
     Rows<ObjectId> compound_arguments;
     Rows<MethodId> compound_methods;
 
     // By MethodId.
     std::vector<TaskId> method_task;
-    std::vector<std::uint32_t> method_schema;     // meaningless for methods of choices
+    std::vector<std::uint32_t> method_schema;  // meaningless for methods of choices
     std::vector<bool> method_is_choice;
     Rows<ObjectId> method_arguments;
     Rows<TaskId> method_subtasks;
-    Rows<std::uint32_t> method_positions;         // of each subtask: its index in the lifted method
-    Rows<std::pair<std::uint32_t, std::uint32_t>> method_ordering;  // indices into the subtasks; transitively closed, sorted
+    Rows<std::uint32_t> method_positions;  // of each subtask: its index in the lifted method
+    Rows<std::pair<std::uint32_t, std::uint32_t>>
+        method_ordering;  // indices into the subtasks; transitively closed, sorted
 
     std::vector<FactId> initial_state;  // sorted
     TaskId initial_task = 0;
-    bool solvable = true;  // false: grounding proved that the initial task cannot be accomplished; the rest is then empty
+    bool solvable =
+        true;  // false: grounding proved that the initial task cannot be accomplished; the rest is then empty
 
     std::size_t fact_count() const { return fact_predicate.size(); }
     std::size_t action_count() const { return action_schema.size(); }

@@ -18,7 +18,8 @@ struct TooManyCasesOf {
     std::vector<ObjectId> arguments;
 };
 
-// Instantiate what the initial task can lead to, and what can be reached, of a lifted problem. Numbering depends on the problem alone.
+// Instantiate what the initial task can lead to, and what can be reached, of a lifted problem. Numbering depends on the
+// problem alone.
 std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem, Limits& limits);
 
 }  // namespace relax

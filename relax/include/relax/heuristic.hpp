@@ -32,8 +32,8 @@ public:
     virtual std::optional<Cost> evaluate(const NodeView& node) = 0;
 };
 
-// `costs`: by ActionId. All kinds say dead end only where it is true. When a limit is reached, an evaluation may end early with a
-// weaker estimate.
+// `costs`: by ActionId. All kinds say dead end only where it is true. When a limit is reached, an evaluation may end
+// early with a weaker estimate.
 std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs,
                                           Limits& limits);
 

@@ -22,7 +22,8 @@ public:
 
     explicit HMax(const RelaxedModel& model);
 
-    // Compute from scratch; `costs` by OwnerId. Returns the cost of the dearest goal, or nothing where one is out of reach.
+    // Compute from scratch; `costs` by OwnerId. Returns the cost of the dearest goal, or nothing where one is out of
+    // reach.
     std::optional<Cost> run(const RelaxedTask& task, std::span<const Cost> costs);
 
     // Update after the costs of the owners of these operators have been lowered. Returns the cost of the dearest goal.

@@ -21,8 +21,8 @@ inline std::uint64_t combine(std::uint64_t seed, std::uint64_t word) {
     return mix(seed * 0x9e3779b97f4a7c15ULL + word + 1);
 }
 
-// A hash table of dense numbers whose keys live elsewhere: open addressing, linear probing. Half of each hash is kept, so that
-// full keys are compared only when they are very likely equal.
+// A hash table of dense numbers whose keys live elsewhere: open addressing, linear probing. Half of each hash is kept,
+// so that full keys are compared only when they are very likely equal.
 class IdTable {
 public:
     // Find an element with this hash for which `equal(id)` holds.
@@ -43,7 +43,8 @@ public:
         }
     }
 
-    // Add an element that is not yet there. Its low 32 bits of hash are found again from `hash_of` when the table grows.
+    // Add an element that is not yet there. Its low 32 bits of hash are found again from `hash_of` when the table
+    // grows.
     template <typename HashOf>
     void add(std::uint64_t hash, std::uint32_t id, HashOf hash_of) {
         if (4 * (count_ + 1) > 3 * slots_.size()) {

@@ -3,7 +3,8 @@
 
 // The lifted problem as the grounder takes it: names are numbers, types are lists of objects ("domains"),
 // and three things are compiled into tasks beforehand: the initial network is a method of one initial task, method
-// preconditions are actions without effects before the method's subtasks, and the goal is such an action at the very end.
+// preconditions are actions without effects before the method's subtasks, and the goal is such an action at the very
+// end.
 
 #include <cstdint>
 #include <utility>
@@ -25,10 +26,10 @@ enum class FormulaKind : std::uint8_t { And, Or, Not, Atom, Equals, InDomain, Ex
 
 struct Formula {
     FormulaKind kind = FormulaKind::And;
-    std::vector<Formula> operands;         // And, Or: any number; Not, Exists, Forall: one
-    std::uint32_t symbol = 0;              // Atom: predicate; InDomain: domain
-    std::vector<Term> terms;               // Atom: arguments; Equals: two; InDomain: one
-    std::vector<LiftedVariable> variables; // Exists, Forall
+    std::vector<Formula> operands;          // And, Or: any number; Not, Exists, Forall: one
+    std::uint32_t symbol = 0;               // Atom: predicate; InDomain: domain
+    std::vector<Term> terms;                // Atom: arguments; Equals: two; InDomain: one
+    std::vector<LiftedVariable> variables;  // Exists, Forall
 };
 
 struct LiftedEffect {
@@ -48,7 +49,7 @@ struct LiftedCostCondition {
 
 struct LiftedAction {
     std::vector<std::uint32_t> parameters;  // domains of slots 0, 1, ..
-    std::uint32_t slot_count = 0;           // parameters and quantified variables; every quantifier has slots of its own
+    std::uint32_t slot_count = 0;  // parameters and quantified variables; every quantifier has slots of its own
     Formula precondition;
     std::vector<LiftedEffect> effects;
     std::vector<LiftedCostCondition> cost_conditions;

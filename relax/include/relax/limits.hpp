@@ -11,8 +11,8 @@ namespace relax {
 
 enum class StopReason : std::uint8_t { TimeLimit, MemoryLimit, Interrupted };
 
-// What may end a computation before it is done. `check` costs some nanoseconds; the clock, the process's memory and `poll` are
-// asked for every few milliseconds only.
+// What may end a computation before it is done. `check` costs some nanoseconds; the clock, the process's memory and
+// `poll` are asked for every few milliseconds only.
 class Limits {
 public:
     using Clock = std::chrono::steady_clock;

@@ -12,14 +12,15 @@
 
 namespace relax {
 
-// The landmark-cut heuristic (Helmert and Domshlak 2009). Each round finds a set of owners (actions) one of which every plan
-// of the relaxed task needs, adds the least cost among them, and takes it off all of them, until the goals are free.
+// The landmark-cut heuristic (Helmert and Domshlak 2009). Each round finds a set of owners (actions) one of which every
+// plan of the relaxed task needs, adds the least cost among them, and takes it off all of them, until the goals are
+// free.
 class LmCut {
 public:
     LmCut(const RelaxedModel& model, Limits& limits);
 
-    // Returns a lower bound of the cost of any plan of the relaxed task, or nothing where there is none. A limit ends the rounds
-    // early, with a lower bound all the same.
+    // Returns a lower bound of the cost of any plan of the relaxed task, or nothing where there is none. A limit ends
+    // the rounds early, with a lower bound all the same.
     std::optional<Cost> run(const RelaxedTask& task);
 
     std::uint64_t rounds() const { return rounds_; }
@@ -35,12 +36,12 @@ private:
     const RelaxedModel& model_;
     Limits& limits_;
     HMax hmax_;
-    std::vector<Cost> costs_;                 // by OwnerId, what is left of them
-    std::vector<std::uint64_t> zone_round_;   // by RelaxedFact: the round in which `zone_` was set
-    std::vector<Zone> zone_;                  // by RelaxedFact
-    std::vector<std::uint64_t> cut_round_;    // by OwnerId: the round in which it was put into the cut
+    std::vector<Cost> costs_;                // by OwnerId, what is left of them
+    std::vector<std::uint64_t> zone_round_;  // by RelaxedFact: the round in which `zone_` was set
+    std::vector<Zone> zone_;                 // by RelaxedFact
+    std::vector<std::uint64_t> cut_round_;   // by OwnerId: the round in which it was put into the cut
     std::vector<OwnerId> cut_;
-    std::vector<OwnerId> lowered_;            // owners whose cost differs from the model's
+    std::vector<OwnerId> lowered_;  // owners whose cost differs from the model's
     std::vector<OperatorId> changed_;
     std::vector<RelaxedFact> pending_;
     std::uint64_t rounds_ = 0;

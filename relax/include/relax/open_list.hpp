@@ -11,8 +11,9 @@
 
 namespace relax {
 
-// The open list: a heap by priority (f, say); ties by low h, then by fewer pending tasks, so that recursion that costs nothing
-// does not dive for ever, then the newest first. Entries are not removed when their node improves: who pops one asks the node.
+// The open list: a heap by priority (f, say); ties by low h, then by fewer pending tasks, so that recursion that costs
+// nothing does not dive for ever, then the newest first. Entries are not removed when their node improves: who pops one
+// asks the node.
 class OpenList {
 public:
     struct Entry {

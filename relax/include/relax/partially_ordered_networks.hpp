@@ -12,9 +12,9 @@
 
 namespace relax {
 
-// Occurrences with a transitively closed order, brought into a canonical order before they are kept. Two networks get the same
-// number only if their canonical forms are equal to the letter, which is a verified isomorphism; that isomorphic networks
-// always meet in one form is not promised, and nothing but work depends on it.
+// Occurrences with a transitively closed order, brought into a canonical order before they are kept. Two networks get
+// the same number only if their canonical forms are equal to the letter, which is a verified isomorphism; that
+// isomorphic networks always meet in one form is not promised, and nothing but work depends on it.
 class PartiallyOrderedNetworks final : public TaskNetworks {
 public:
     PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds);

@@ -28,10 +28,10 @@ struct Successor {
 
 // Progression over states and task networks; knows nothing of search algorithms.
 //
-// Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend on the
-// state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to try the methods of
-// one of them. An applicable action that costs and changes nothing (a method precondition) can only be in the way: executing it at
-// once is enough, too. Otherwise every applicable unconstrained action is tried.
+// Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend
+// on the state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to
+// try the methods of one of them. An applicable action that costs and changes nothing (a method precondition) can only
+// be in the way: executing it at once is enough, too. Otherwise every applicable unconstrained action is tried.
 class Progression {
 public:
     // `costs`: by ActionId. `task_bounds`: see tdg_bound.

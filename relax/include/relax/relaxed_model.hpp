@@ -3,10 +3,11 @@
 
 // The relaxed classical model of an HTN problem (buildRCModel of the paper's Algorithm 5).
 //
-// Facts: one that always holds; the state's facts; for facts that something reads negatively, their complements; and for
-// every task the fact that it has been reached. An action makes its effects true and its task reached; it needs its
-// preconditions. A method needs its distinct subtasks reached, makes its task reached, and is free. Deletes are ignored.
-// A node's goals are the reached facts of its network's tasks; only what is reachable from that network takes part.
+// Facts: one that always holds; the state's facts; for facts that something reads negatively, their complements; and
+// for every task the fact that it has been reached. An action makes its effects true and its task reached; it needs its
+// preconditions. A method needs its distinct subtasks reached, makes its task reached, and is free. Deletes are
+// ignored. A node's goals are the reached facts of its network's tasks; only what is reachable from that network takes
+// part.
 //
 // Effects with conditions become operators of their own. They share their action's cost: the action is the *owner*.
 

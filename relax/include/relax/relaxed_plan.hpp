@@ -10,12 +10,12 @@
 
 namespace relax {
 
-// Two heuristics that promise nothing and guide well: the additive heuristic (Bonet and Geffner 2001), which adds up the costs of
-// preconditions as if nothing were shared, and the FF heuristic (Hoffmann and Nebel 2001), the cost of the relaxed plan made
-// of the additive heuristic's cheapest achievers.
+// Two heuristics that promise nothing and guide well: the additive heuristic (Bonet and Geffner 2001), which adds up
+// the costs of preconditions as if nothing were shared, and the FF heuristic (Hoffmann and Nebel 2001), the cost of the
+// relaxed plan made of the additive heuristic's cheapest achievers.
 //
-// What they estimate is how much is left to do: an operator weighs its cost and the mean cost of an action besides, so that
-// decompositions, which are free, count as well.
+// What they estimate is how much is left to do: an operator weighs its cost and the mean cost of an action besides, so
+// that decompositions, which are free, count as well.
 class RelaxedPlan {
 public:
     explicit RelaxedPlan(const RelaxedModel& model);

@@ -22,7 +22,7 @@ struct SearchNode {
     NetworkId network;
     NodeId parent;  // itself for the root
     std::uint32_t occurrence;
-    MethodId method;  // kExecuted where the step executed an action
+    MethodId method;    // kExecuted where the step executed an action
     bool is_evaluated;  // `h` includes the heuristic
     bool is_expanded;   // at its present g
 
@@ -35,9 +35,7 @@ struct SearchNode {
         method = step.method.value_or(kExecuted);
         is_expanded = false;
     }
-    SearchStep step() const {
-        return {occurrence, method == kExecuted ? std::nullopt : std::optional(method)};
-    }
+    SearchStep step() const { return {occurrence, method == kExecuted ? std::nullopt : std::optional(method)}; }
 };
 
 // Every node that the search has met, once for each pair of state and network.
@@ -48,16 +46,16 @@ public:
     std::size_t size() const { return nodes_.size(); }
 
     std::optional<NodeId> find(StateId state, NetworkId network) const {
-        return table_.find(hash(state, network), [&](NodeId id) {
-            return nodes_[id].state == state && nodes_[id].network == network;
-        });
+        return table_.find(hash(state, network),
+                           [&](NodeId id) { return nodes_[id].state == state && nodes_[id].network == network; });
     }
 
     // Add a node for a pair that is not yet there.
     NodeId add(StateId state, NetworkId network) {
         const auto id = static_cast<NodeId>(nodes_.size());
         nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, false, false});
-        table_.add(hash(state, network), id, [this](NodeId other) { return hash(nodes_[other].state, nodes_[other].network); });
+        table_.add(hash(state, network), id,
+                   [this](NodeId other) { return hash(nodes_[other].state, nodes_[other].network); });
         return id;
     }
 

@@ -23,9 +23,9 @@ struct SearchStatistics {
 // A task of the plan's decomposition tree.
 struct DecompositionNode {
     TaskId task;
-    std::optional<MethodId> method;        // of a compound task
-    std::optional<std::uint32_t> parent;   // index of a node; none for the initial task
-    std::uint32_t subtask = 0;             // which of the parent's method's subtasks it is
+    std::optional<MethodId> method;       // of a compound task
+    std::optional<std::uint32_t> parent;  // index of a node; none for the initial task
+    std::uint32_t subtask = 0;            // which of the parent's method's subtasks it is
 };
 
 struct SearchResult {

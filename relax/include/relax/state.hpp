@@ -17,9 +17,15 @@ using StateId = std::uint32_t;
 // Facts of a state as bits, in words of 64.
 using StateBits = std::vector<std::uint64_t>;
 
-inline bool holds(std::span<const std::uint64_t> state, FactId fact) { return (state[fact / 64] >> (fact % 64) & 1U) != 0; }
-inline void set_fact(std::span<std::uint64_t> state, FactId fact) { state[fact / 64] |= std::uint64_t{1} << (fact % 64); }
-inline void clear_fact(std::span<std::uint64_t> state, FactId fact) { state[fact / 64] &= ~(std::uint64_t{1} << (fact % 64)); }
+inline bool holds(std::span<const std::uint64_t> state, FactId fact) {
+    return (state[fact / 64] >> (fact % 64) & 1U) != 0;
+}
+inline void set_fact(std::span<std::uint64_t> state, FactId fact) {
+    state[fact / 64] |= std::uint64_t{1} << (fact % 64);
+}
+inline void clear_fact(std::span<std::uint64_t> state, FactId fact) {
+    state[fact / 64] &= ~(std::uint64_t{1} << (fact % 64));
+}
 
 // Executes actions in states.
 class StateTransition {

@@ -1,9 +1,9 @@
 #ifndef RELAX_TASK_NETWORK_HPP
 #define RELAX_TASK_NETWORK_HPP
 
-// Task networks as the search meets them: immutable, each kept once and known by a number. Where every method is totally
-// ordered, a network is a list that shares its rest with others (TotallyOrderedNetworks); otherwise it is a set of
-// occurrences with a transitively closed order in a canonical form (PartiallyOrderedNetworks).
+// Task networks as the search meets them: immutable, each kept once and known by a number. Where every method is
+// totally ordered, a network is a list that shares its rest with others (TotallyOrderedNetworks); otherwise it is a set
+// of occurrences with a transitively closed order in a canonical form (PartiallyOrderedNetworks).
 
 #include <cstdint>
 #include <memory>

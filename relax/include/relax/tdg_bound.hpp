@@ -10,8 +10,9 @@
 namespace relax {
 
 // The decomposition-graph bound: by TaskId, the least cost of the actions of any finite decomposition, states ignored.
-// It is the least fixed point of the paper's Algorithms 1 and 2 (best decomposition without a repeated task on a path), found
-// by Knuth's generalisation of Dijkstra's algorithm (1977). `kNoDecomposition` where there is no finite decomposition.
+// It is the least fixed point of the paper's Algorithms 1 and 2 (best decomposition without a repeated task on a path),
+// found by Knuth's generalisation of Dijkstra's algorithm (1977). `kNoDecomposition` where there is no finite
+// decomposition.
 std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs);
 
 inline constexpr Cost kNoDecomposition = Cost{1} << 62;
