@@ -1,8 +1,8 @@
 """An exhaustive solver for small lifted problems: the judge of the planner, with which it shares no code.
 
-A node is a state and a network of what is still to do; a method's precondition stands in the network as a condition of its
-own, ordered before the method's subtasks. Whatever has nothing before it may come next: an action is executed, a condition
-tested, a compound task decomposed, in every possible way.
+A node is a state and a network of what is still to do; a method's precondition stands in the network as a condition of
+its own, ordered before the method's subtasks. Whatever has nothing before it may come next: an action is executed, a
+condition tested, a compound task decomposed, in every possible way.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from tests.naive_semantics import Bindings, Semantics, State
 Path = tuple[
     int, ...
 ]  # of a task in the decomposition tree: the index of each ancestor among its siblings, then its own
-LARGEST_NETWORK = 20
+LARGEST_NETWORK = 14
 CONDITION = -1  # the last index of the path of a method's precondition
 
 
@@ -120,7 +120,7 @@ class Space:
             yield Node(node.state, replaced(node.network, task, parts), last)
 
 
-def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 5000) -> float | None:
+def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 2000) -> float | None:
     """The least risk cost of any plan; None if there is no plan.
 
     Uniform-cost search, except that the part of an action's cost that is due in every state counts as soon as the
@@ -242,7 +242,7 @@ def replaced(network: Iterable[Pending], old: Pending, parts: list[Pending]) -> 
 
 
 class Canonical:
-    """Networks without their paths. Equal values mean equal networks; equal networks nearly always have equal values."""
+    """Networks without their paths: equal values mean equal networks; the reverse holds nearly always."""
 
     def __init__(self) -> None:
         self.numbers: dict[object, int] = {}  # of labels and of histories, so that histories stay short

@@ -171,9 +171,9 @@ class Semantics:
 
     def completions(self, method: Method, bindings: Bindings, conditions: list[Formula]) -> Iterator[Bindings]:
         for condition in conditions:
-            if all(term in bindings for term in variables(condition)):
-                if not self.holds(condition, bindings, self.problem.initial_state):
-                    return
+            known = all(term in bindings for term in variables(condition))
+            if known and not self.holds(condition, bindings, self.problem.initial_state):
+                return
         for parameter in method.parameters:
             if parameter.name in bindings and not self.is_of(bindings[parameter.name], parameter.types):
                 return
@@ -186,7 +186,7 @@ class Semantics:
             yield bindings
 
     def fixed_conditions(self, method: Method) -> Iterator[Formula]:
-        """Literals that a decomposition by the method needs and that no action changes: the initial state decides them."""
+        """Literals that the method needs and that no action changes: the initial state decides them."""
         yield from filter(self.is_fixed, conjuncts(method.network.constraints))
         yield from filter(self.is_fixed, conjuncts(method.precondition))
         for subtask in method.network.subtasks:

@@ -1,7 +1,7 @@
 """The true remaining cost of the nodes of a ground problem's search space: what heuristics are judged by.
 
-The space is explored as far as a limit allows, and the costs are found backwards from its solutions. Where the space goes on
-beyond the limit they are upper bounds of the true ones: every statement `h <= h*` must hold for them, too.
+The space is explored as far as a limit allows, and the costs are found backwards from its solutions. Where the space
+goes on beyond the limit they are upper bounds of the true ones: every statement `h <= h*` must hold for them, too.
 """
 
 from __future__ import annotations

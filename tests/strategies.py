@@ -1,7 +1,7 @@
 """Random small problems, for Hypothesis: everything of the language at a size that can be solved exhaustively.
 
-Problems are lifted, over one to three objects of one or two types. Recursion pays for itself nearly always (a recursive method
-has an action that costs something), so that an optimum exists, but it need not end.
+Problems are lifted, over one to three objects of one or two types. Recursion costs something nearly always (a method
+that leads back has an action that does), so that an optimum is found, but it need not end.
 """
 
 from __future__ import annotations

@@ -53,6 +53,7 @@ SearchResult FindPlans::run() {
         stop = StopReason::MemoryLimit;  // in the middle of an expansion: the open list is not complete
     }
     proven = std::max(proven, statistics_.lower_bound.value_or(0));
+    result.is_stopped = stop.has_value();
     if (goal_) {
         trace(*goal_, result);
     }

@@ -9,7 +9,8 @@ print(result)
 
 from __future__ import annotations
 
-from statehtn.core.search import HEURISTICS, SEARCHES, Progress
+from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.search import SEARCHES, Progress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.hddl.plan_format import read_plan, write_plan

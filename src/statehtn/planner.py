@@ -9,7 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from statehtn.core.grounding import ground
-from statehtn.core.search import HEURISTICS, SEARCHES, Progress, find_plans
+from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.search import SEARCHES, Progress, find_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import InternalError, UsageError
 from statehtn.hddl import read_hddl
@@ -92,7 +93,8 @@ def plan(
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
         heuristic: a name from `HEURISTICS`.
-        search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan.
+        search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
+            finds one soon, and better ones until it is optimal.
         weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).
         time_limit: seconds, for grounding and search together.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).

@@ -7,20 +7,18 @@ from hypothesis import assume, given
 
 from statehtn import Status, validate
 from statehtn.core.grounding import ground
-from statehtn.core.search import HeuristicEvaluator
+from statehtn.core.heuristics import HeuristicEvaluator
 from statehtn.model import Problem
 from statehtn.reference import RelaxedTask, compute_rc_ad_heur, find_plans
 from statehtn.risk import Utility, utility_for
 from tests.differential.oracles import brute_force, close_to
-from tests.differential.test_reference_against_core import ATTITUDES, p1
+from tests.differential.test_reference_against_core import ATTITUDES
 from tests.remaining_cost import explore
 from tests.strategies import problems, utilities
 
 relaxation = pytest.importorskip("pyperplan.heuristics.relaxation")
 pyperplan_task = pytest.importorskip("pyperplan.task")
 pyperplan_search = pytest.importorskip("pyperplan.search.searchspace")
-
-__all__ = ["p1"]
 
 
 def pyperplan_hmax(task: RelaxedTask) -> float:
@@ -60,7 +58,7 @@ def test_same_value_as_the_core(problem: Problem, utility: Utility) -> None:
 
 
 @pytest.mark.parametrize(("attitude", "alpha"), ATTITUDES)
-def test_same_optimum_on_p1(p1: Problem, attitude: str, alpha: float | None) -> None:  # noqa: F811
+def test_same_optimum_on_p1(p1: Problem, attitude: str, alpha: float | None) -> None:
     utility = utility_for(attitude, alpha)
     solution = find_plans(ground(p1).to_model(), utility, pyperplan_hmax)
     assert solution.plan is not None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from itertools import pairwise
 
 import pytest
 from hypothesis import assume, given
@@ -13,18 +13,12 @@ from statehtn.core.grounding import ground
 from statehtn.model import Problem
 from statehtn.reference import Heuristic, RelaxedTask, SearchNode, blind, find_plans, hmax
 from statehtn.risk import Utility, utility_for
-from tests.differential.oracles import close_to, solve
+from tests.differential.oracles import close_to, solve_or_drop
 from tests.strategies import problems, utilities
 
 HEURISTICS = {"blind": blind, "hmax": hmax}
 MOST_EXPANSIONS = 300
 ATTITUDES = [("neutral", None), ("averse", 0.1), ("averse", 0.9), ("seeking", 0.1), ("seeking", 0.9)]
-AV = Path(__file__).parents[2] / "domains" / "av"
-
-
-@pytest.fixture(scope="module")
-def p1() -> Problem:
-    return statehtn.read_hddl(AV / "domain.hddl", AV / "p1.hddl")
 
 
 @pytest.mark.parametrize("heuristic", HEURISTICS.values(), ids=HEURISTICS)
@@ -32,7 +26,7 @@ def p1() -> Problem:
 def test_same_optimum(heuristic: Heuristic, problem: Problem, utility: Utility) -> None:
     solution = find_plans(ground(problem).to_model(), utility, heuristic, most_expansions=MOST_EXPANSIONS)
     assume(solution.status is not Status.EXHAUSTED)
-    result = solve(problem, utility)
+    result = solve_or_drop(problem, utility)
     assert solution.status is result.status
     if solution.plan is not None:
         assert solution.risk_cost == close_to(result.risk_cost)
@@ -73,7 +67,7 @@ def test_every_expanded_node_can_be_visited(p1: Problem) -> None:
 
     solution = find_plans(ground(p1).to_model(), utility_for("averse", 0.9), hmax, visit=visit)
     assert len(values) == solution.expanded
-    assert values == sorted(values)  # hmax is consistent
+    assert all(first <= second + 1e-9 for first, second in pairwise(values))  # hmax is consistent
     assert values[-1] <= solution.risk_cost + 1e-9
 
 

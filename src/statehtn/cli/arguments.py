@@ -6,7 +6,8 @@ import argparse
 from collections.abc import Sequence
 from typing import NoReturn
 
-from statehtn.core.search import HEURISTICS, SEARCHES
+from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.search import SEARCHES
 from statehtn.errors import UsageError
 from statehtn.planner import DEFAULT_WEIGHT, SOLVERS
 from statehtn.risk import Attitude
@@ -77,7 +78,10 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
     search.add_argument("--solver", choices=list(SOLVERS), default="state", help="default: state")
     search.add_argument("--heuristic", choices=list(HEURISTICS), default="lmcut", help="default: lmcut")
     search.add_argument(
-        "--search", choices=list(SEARCHES), default="astar", help="default: astar, the one that proves optimality"
+        "--search",
+        choices=list(SEARCHES),
+        default="astar",
+        help="default: astar; anytime, too, goes on until the plan is proven optimal",
     )
     search.add_argument(
         "--weight", type=float, metavar="W", help=f"of the weighted search, at least 1; default: {DEFAULT_WEIGHT:g}"

@@ -1,15 +1,16 @@
-"""Search in the compiled core: heuristics, algorithms, and their outcomes in the domain's own unit of cost."""
+"""Search in the compiled core, as one stage or several, with outcomes in the domain's own unit of cost."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.pricing import price
+from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.pricing import Prices, price
 from statehtn.core.trace import read_trace
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
@@ -19,80 +20,28 @@ from statehtn.risk import Utility
 
 
 @dataclass(frozen=True, slots=True)
-class HeuristicInfo:
-    """What is known of a heuristic.
+class Stage:
+    """One run of a best-first search; heuristic and weight are the user's where they are None."""
 
-    Args:
-        kind: its name in the core.
-        admissible: it never estimates more than is still to pay.
-        consistent: along a step it falls by at most the step's cost.
-        safe: what it calls a dead end is one.
-        description: what it does, and where it comes from.
-    """
-
-    kind: _relax.HeuristicKind
-    admissible: bool
-    consistent: bool
-    safe: bool
-    description: str
+    algorithm: _relax.SearchAlgorithm
+    heuristic: str | None = None
+    weight: float | None = None
 
 
-HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
+SEARCHES: Mapping[str, tuple[Stage, ...]] = MappingProxyType(
     {
-        "blind": HeuristicInfo(_relax.HeuristicKind.Blind, True, True, True, "always 0: uniform-cost search"),
-        "tdg": HeuristicInfo(
-            _relax.HeuristicKind.Tdg,
-            True,
-            True,
-            True,
-            "least cost of any decomposition, states ignored (the paper's Algorithms 1 and 2)",
-        ),
-        "hmax": HeuristicInfo(
-            _relax.HeuristicKind.HMax,
-            True,
-            True,
-            True,
-            "max heuristic on the relaxed model (the paper's Algorithm 5; Bonet and Geffner 2001)",
-        ),
-        "lmcut": HeuristicInfo(
-            _relax.HeuristicKind.LmCut,
-            True,
-            False,
-            True,
-            "landmark cuts on the relaxed model (the paper's Algorithm 5; Helmert and Domshlak 2009)",
-        ),
-        "potential": HeuristicInfo(
-            _relax.HeuristicKind.Potential,
-            True,
-            False,
-            True,
-            "decomposition-graph bound, plus landmark cuts on what methods cost beyond it",
-        ),
-        "add": HeuristicInfo(
-            _relax.HeuristicKind.Add,
-            False,
-            False,
-            True,
-            "additive heuristic on the relaxed model, for greedy search (Bonet and Geffner 2001)",
-        ),
-        "ff": HeuristicInfo(
-            _relax.HeuristicKind.Ff,
-            False,
-            False,
-            True,
-            "relaxed plan on the relaxed model, for greedy search (Hoffmann and Nebel 2001)",
+        "astar": (Stage(_relax.SearchAlgorithm.AStar),),
+        "weighted": (Stage(_relax.SearchAlgorithm.Weighted),),
+        "greedy": (Stage(_relax.SearchAlgorithm.Greedy),),
+        # A plan soon, then better ones: each stage looks only for plans that are better than the best one so far.
+        "anytime": (
+            Stage(_relax.SearchAlgorithm.Greedy, heuristic="ff"),
+            Stage(_relax.SearchAlgorithm.Weighted, weight=4.0),
+            Stage(_relax.SearchAlgorithm.Weighted, weight=2.0),
+            Stage(_relax.SearchAlgorithm.AStar),
         ),
     }
 )
-
-ALGORITHMS: Mapping[str, _relax.SearchAlgorithm] = MappingProxyType(
-    {
-        "astar": _relax.SearchAlgorithm.AStar,
-        "weighted": _relax.SearchAlgorithm.Weighted,
-        "greedy": _relax.SearchAlgorithm.Greedy,
-    }
-)
-SEARCHES = tuple(ALGORITHMS)
 
 _STATUSES = {
     _relax.SearchStatus.Optimal: Status.OPTIMAL,
@@ -156,9 +105,9 @@ def find_plans(
         grounding: the ground problem and its cost laws.
         utility: the agent's; it prices the actions.
         heuristic: a name in `HEURISTICS`.
-        search: a name in `SEARCHES`; with an admissible heuristic `astar` promises the optimum, `weighted` a plan of at
-            most `weight` times its risk cost.
-        weight: of h in weighted A*, at least 1.
+        search: a name in `SEARCHES`; with an admissible heuristic `astar` and `anytime` promise the optimum, `weighted`
+            a plan of at most `weight` times its risk cost.
+        weight: of h in the weighted search, at least 1.
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
         switches: refinements to leave out.
@@ -167,69 +116,96 @@ def find_plans(
         UnsupportedError: the costs of a plan exceed the range of fixed point, some 10^6 times the largest cost of an
             action.
     """
-    prices = price(grounding.laws, utility)
-    options = _relax.SearchOptions()
-    options.heuristic = HEURISTICS[heuristic].kind
-    options.algorithm = ALGORITHMS[search]
-    options.weight = weight
-    options.use_tdg_bound = switches.tdg_bound
-    options.inherit_h = switches.inherit_h
-    started = time.monotonic()
+    run = _Run(grounding, price(grounding.laws, utility), limits, progress)
+    for stage in SEARCHES[search]:
+        options = _relax.SearchOptions()
+        options.algorithm = stage.algorithm
+        options.heuristic = HEURISTICS[stage.heuristic or heuristic].kind
+        options.weight = stage.weight or weight
+        options.use_tdg_bound = switches.tdg_bound
+        options.inherit_h = switches.inherit_h
+        if run.stage(options):
+            break
+    return run.outcome()
 
-    def to_cost(units: int | None) -> float | None:
-        return None if units is None else prices.cost(units)
 
-    def report(statistics: _relax.SearchStatistics) -> None:
-        assert progress is not None
-        progress(
+class _Run:
+    """The stages of a search: the best plan and the best bound so far, and the effort of all of them together."""
+
+    def __init__(
+        self, grounding: Grounding, prices: Prices, limits: Limits, progress: Callable[[Progress], None] | None
+    ) -> None:
+        self.grounding = grounding
+        self.prices = prices
+        self.limits = limits
+        self.progress = progress
+        self.started = time.monotonic()
+        self.best: _relax.SearchResult | None = None
+        self.status = Status.UNSOLVABLE
+        self.lower_bound: int | None = None
+        self.done: list[_relax.SearchStatistics] = []
+
+    def stage(self, options: _relax.SearchOptions) -> bool:
+        """Run one stage; returns whether it was the last one that can make a difference."""
+        options.upper_bound = None if self.best is None else self.best.cost
+        limits = self.limits
+        try:
+            result = _relax.find_plans(
+                self.grounding.handle,
+                self.prices.units,
+                options,
+                None if limits.deadline is None else limits.deadline - time.monotonic(),
+                None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
+                None if self.progress is None else self.report,
+            )
+        except OverflowError:
+            raise UnsupportedError(
+                "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
+            ) from None
+        self.done.append(result.statistics)
+        self.lower_bound = self.bound_with(result.statistics)
+        self.status = _STATUSES[result.status]
+        if self.status is Status.UNSOLVABLE and self.best is not None:
+            self.status = Status.OPTIMAL  # nothing is better than the best plan so far
+            self.lower_bound = self.best.cost
+        elif result.cost is not None:
+            self.best = result
+        elif self.best is not None:
+            self.status = Status.SOLVED
+        return result.is_stopped or self.status is not Status.SOLVED
+
+    def bound_with(self, statistics: _relax.SearchStatistics) -> int | None:
+        """Return the best lower bound of all stages and this one."""
+        bounds = [bound for bound in (self.lower_bound, statistics.lower_bound) if bound is not None]
+        return max(bounds, default=None)
+
+    def report(self, statistics: _relax.SearchStatistics) -> None:
+        """Tell the user's callback how far the search has come."""
+        assert self.progress is not None
+        best = statistics.best if statistics.best is not None or self.best is None else self.best.cost
+        everything = [*self.done, statistics]
+        self.progress(
             Progress(
-                time.monotonic() - started,
-                statistics.expanded,
-                statistics.generated,
-                statistics.evaluated,
-                to_cost(statistics.lower_bound),
-                to_cost(statistics.best),
+                time.monotonic() - self.started,
+                sum(one.expanded for one in everything),
+                sum(one.generated for one in everything),
+                sum(one.evaluated for one in everything),
+                self.cost(self.bound_with(statistics)),
+                self.cost(best),
             )
         )
 
-    try:
-        result = _relax.find_plans(
-            grounding.handle,
-            prices.units,
-            options,
-            None if limits.deadline is None else limits.deadline - started,
-            None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
-            None if progress is None else report,
+    def outcome(self) -> SearchOutcome:
+        return SearchOutcome(
+            self.status,
+            None if self.best is None else read_trace(self.grounding, self.best),
+            self.cost(self.lower_bound),
+            sum(one.expanded for one in self.done),
+            sum(one.generated for one in self.done),
+            sum(one.evaluated for one in self.done),
+            sum(one.dead_ends for one in self.done),
         )
-    except OverflowError:
-        raise UnsupportedError(
-            "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
-        ) from None
-    statistics = result.statistics
-    return SearchOutcome(
-        _STATUSES[result.status],
-        None if result.cost is None else read_trace(grounding, result),
-        to_cost(statistics.lower_bound),
-        statistics.expanded,
-        statistics.generated,
-        statistics.evaluated,
-        statistics.dead_ends,
-    )
 
-
-class HeuristicEvaluator:
-    """A heuristic on its own, for states and networks of the caller's choice."""
-
-    def __init__(self, grounding: Grounding, utility: Utility, heuristic: str) -> None:
-        self._prices = price(grounding.laws, utility)
-        self._evaluator = _relax.Evaluator(grounding.handle, self._prices.units, HEURISTICS[heuristic].kind)
-
-    def __call__(self, state: Iterable[int], tasks: Iterable[int]) -> float | None:
-        """Estimate the cost still to come, rounded down; None for a dead end.
-
-        Args:
-            state: the facts that hold, numbered as in `Grounding.to_model()`.
-            tasks: the tasks of the network, with repetitions, numbered likewise.
-        """
-        units = self._evaluator.evaluate(list(state), list(tasks))
-        return None if units is None else self._prices.cost(units)
+    def cost(self, units: int | None) -> float | None:
+        """Return an amount of units in the domain's own unit."""
+        return None if units is None else self.prices.cost(units)

@@ -1,9 +1,6 @@
 """The paper's state-based solver as executable pseudo-code (Algorithms 4 and 5): slow, readable, open to any heuristic.
 
-from statehtn.core import ground
-from statehtn.reference import find_plans, hmax
-
-solution = find_plans(ground(problem).to_model(), utility, hmax)
+`find_plans(ground(problem).to_model(), utility, hmax)` solves a problem, with `ground` from `statehtn.core.grounding`.
 """
 
 from __future__ import annotations

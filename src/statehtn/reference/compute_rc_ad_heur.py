@@ -1,8 +1,8 @@
 """Algorithm 5 of the paper, computeRCAdHeur: an admissible classical heuristic on the relaxed model of a search node.
 
-The numbers in the comments are the lines of the pseudo-code. Costs are positive and minimised here; the paper's are negative
-and maximised. Line 6 differs from the paper: it prices an action by its risk cost, which adds up along a plan, where the plain
-expected utility of an exponential utility does not.
+The numbers in the comments are the lines of the pseudo-code. Costs are positive and minimised here; the paper's are
+negative and maximised. Line 6 differs from the paper: it prices an action by its risk cost, which adds up along a plan,
+where the plain expected utility of an exponential utility does not.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from statehtn.reference.relaxed_model import RelaxedTask, build_rc_model
 from statehtn.risk import Utility
 
 Heuristic = Callable[[RelaxedTask], float]
-"""`computeH` of line 8: estimates the cost of the relaxed task's goals; infinite where they cannot be reached.
+"""`computeH` of line 7: estimates the cost of the relaxed task's goals; infinite where they cannot be reached.
 
 Any admissible heuristic for classical planning will do; one that uses operators of the same action twice over is not
 admissible for actions with conditional effects.
@@ -44,7 +44,7 @@ def compute_rc_ad_heur(
     for operator in model.operators:
         if operator.action is not None:  # 5: for all A
             operator.cost = utility.risk_cost(problem.actions[operator.action].cost)  # 6
-    return compute_h(model)  # 8, 9
+    return compute_h(model)  # 7, 8
 
 
 def blind(task: RelaxedTask) -> float:

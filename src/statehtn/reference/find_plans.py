@@ -1,13 +1,14 @@
 """Algorithm 4 of the paper, FindPlans: A* over states and task networks. Slow, and meant to be read.
 
-The numbers in the comments are the lines of the pseudo-code. Costs are positive and minimised here (the paper's are negative
-and maximised), so the fringe is ordered by rising f. Where it differs from the paper, and why:
+The numbers in the comments are the lines of the pseudo-code. Costs are positive and minimised here (the paper's are
+negative and maximised), so the fringe is ordered by rising f. Where it differs from the paper, and why:
 
-- Line 7: a node is a solution when its network is *empty*. The paper stops as soon as only primitive tasks are left, which
-  would drop them from the plan.
-- Line 16: the preconditions of methods are artificial actions of the ground problem, ordered before the method's subtasks, and
-  so is the goal, after everything else; they are tested by line 11.
-- There is a closed list: a state and network that were reached before at no higher cost are not put into the fringe again.
+- Line 7: a node is a solution when its network is *empty*. The paper stops as soon as only primitive tasks are left,
+  which would drop them from the plan.
+- Line 16: the preconditions of methods are artificial actions of the ground problem, ordered before the method's
+  subtasks, and so is the goal, after everything else; they are tested by line 11.
+- There is a closed list: a state and network that were reached before at no higher cost are not put into the fringe
+  again.
 """
 
 from __future__ import annotations
@@ -79,7 +80,8 @@ def find_plans(
         problem: a ground problem, totally or partially ordered.
         utility: the agent's.
         heuristic: an admissible classical heuristic, called on the relaxed model of every node.
-        most_expansions: give up after so many; None: never, which may be for ever, since recursion can make the space infinite.
+        most_expansions: give up after so many; None: never. Recursion can make the
+            space infinite.
         visit: is called with every node that is expanded and the heuristic's value there.
     """
     counter = itertools.count()
@@ -111,11 +113,11 @@ def find_plans(
             visit(node, h)
         for successor in successors(node, problem, utility):
             add_and_order(successor)
-    return Solution(Status.UNSOLVABLE, expanded=expanded)  # 24
+    return Solution(Status.UNSOLVABLE, expanded=expanded)  # 20
 
 
 def successors(node: SearchNode, problem: GroundProblem, utility: Utility) -> Iterator[SearchNode]:
-    """Yield all nodes one step further (lines 9 to 22): every unconstrained task is executed or decomposed, as in the paper."""
+    """Yield all nodes one step further (lines 9 to 19): every unconstrained task is executed or decomposed."""
     for identifier in node.network.unconstrained():  # 9, 10
         task = node.network.tasks[identifier]
         if problem.is_primitive(task):

@@ -29,8 +29,8 @@ class Choice:
 def read_plan(problem: GroundProblem, executions: Sequence[Execution], choices: Sequence[Choice]) -> Plan:
     """Return the plan; what grounding has put in is left out.
 
-    Artificial actions (method preconditions, the goal) vanish. A compound task with the name of an action stands for the
-    cases of that action: the case that was chosen takes its place.
+    Artificial actions (method preconditions, the goal) vanish. A compound task with the name of an action stands for
+    the cases of that action: the case that was chosen takes its place.
 
     Args:
         problem: the ground problem.

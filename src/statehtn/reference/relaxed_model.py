@@ -1,11 +1,11 @@
 """The relaxed composition model of a search node: a classical problem without deletes (`buildRCModel` of Algorithm 5).
 
-It has two kinds of operators. Those that come from actions change the state and note that their task has been reached;
-those that come from methods turn the tasks that they decompose into around: they are applicable once their subtasks have been
+It has two kinds of operators. Those that come from actions change the state and note that their task has been reached.
+Those that come from methods turn decomposition upside down: they are applicable once the method's subtasks have been
 reached, and then note that the task above has been. A node's goal is that all tasks of its network have been reached.
 
-Sources: the paper's section on state-based solving; Höller et al., "A generic method to guide HTN progression search with
-classical heuristics" (ICAPS 2018).
+Sources: the paper's section on state-based solving; Höller et al., "A generic method to guide HTN progression search
+with classical heuristics" (ICAPS 2018).
 """
 
 from __future__ import annotations

@@ -60,7 +60,7 @@ class TaskNetwork:
 def _transitive_closure(pairs: Iterable[tuple[Identifier, Identifier]]) -> frozenset[tuple[Identifier, Identifier]]:
     closure = set(pairs)
     while True:
-        more = {(i, l) for i, j in closure for k, l in closure if j == k} - closure
+        more = {(i, k) for i, j in closure for middle, k in closure if j == middle} - closure
         if not more:
             return frozenset(closure)
         closure |= more
