@@ -7,7 +7,7 @@ that leads back has an action that does), so that an optimum is found, but it ne
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from hypothesis import strategies as st
@@ -125,7 +125,12 @@ def problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     for task in tasks.values():
         for i in range(draw(st.integers(1, 3))):
             name = f"{task.name}-m{i}"
-            methods[name] = draw(method(names, name, task, actions, tasks, orders))
+            if i > 0 and "none" in orders and chance(draw, 0.2):  # the same tasks in another order
+                before = methods[f"{task.name}-m{i - 1}"]
+                network = replace(before.network, ordering=draw(ordering(len(before.network.subtasks), orders)))
+                methods[name] = replace(before, name=name, network=network)
+            else:
+                methods[name] = draw(method(names, name, task, actions, tasks, orders))
 
     parameters = names.parameters(draw, 1, "i") if chance(draw, 0.2) else ()
     network = draw(task_network(names, parameters, actions, tasks, draw(st.integers(1, 3)), orders))
@@ -149,7 +154,11 @@ def ground(predicate: Signature, objects: dict[str, str], parents: dict[str, tup
 def action(draw: Draw, names: Names, name: str, costly: bool) -> Action:
     parameters = names.parameters(draw, 2, "x")
     precondition = names.precondition(draw, parameters, (0, 0, 0, 1, 1, 2))
-    effects = tuple(draw(effect(names, parameters)) for _ in range(draw(st.integers(1, 3))))
+    effects = [draw(effect(names, parameters)) for _ in range(draw(st.integers(1, 3)))]
+    if chance(draw, 0.2):  # adding wins over deleting
+        condition = names.condition(draw, parameters) if chance(draw, 0.5) else TRUE
+        opposite = replace(effects[0], positive=not effects[0].positive)
+        effects.append(opposite if opposite.parameters else replace(opposite, condition=condition))
     costs: list[CostBlock] = []
     if costly and not chance(draw, 0.15):
         costs.append(CostBlock(draw(branches(parameters))))
@@ -157,7 +166,7 @@ def action(draw: Draw, names: Names, name: str, costly: bool) -> Action:
             bound = (Parameter("?w", (draw(st.sampled_from(names.types)),)),) if chance(draw, 0.2) else ()
             condition = names.condition(draw, parameters + bound)
             costs.append(CostBlock(draw(branches(parameters + bound)), condition, bound))
-    return Action(name, parameters, precondition, effects, tuple(costs))
+    return Action(name, parameters, precondition, tuple(effects), tuple(costs))
 
 
 @st.composite
@@ -250,13 +259,18 @@ def task_network(
             chosen = draw(st.sampled_from(list(tasks.values() if compound else actions.values())))
         arguments = tuple(names.term(draw, parameter.types[0], scope) for parameter in chosen.parameters)
         subtasks.append(Subtask(f"s{i}", chosen.name, arguments))
+    return TaskNetwork(tuple(subtasks), draw(ordering(size, orders)))
+
+
+@st.composite
+def ordering(draw: Draw, size: int, orders: tuple[str, ...]) -> tuple[tuple[int, int], ...]:
     pairs = [(i, j) for j in range(size) for i in range(j)]
-    order = draw(st.sampled_from(orders))
-    if order == "total" and chance(draw, 0.15):
-        pairs = [(j, i) for i, j in pairs]
-    if order == "partial":
-        pairs = [pair for pair in pairs if draw(st.booleans())]
-    return TaskNetwork(tuple(subtasks), tuple(pairs) if order != "none" else ())
+    match draw(st.sampled_from(orders)):
+        case "total":
+            return tuple((j, i) for i, j in pairs) if chance(draw, 0.15) else tuple(pairs)
+        case "partial":
+            return tuple(pair for pair in pairs if draw(st.booleans()))
+    return ()
 
 
 def utilities() -> st.SearchStrategy[Utility]:

@@ -7,7 +7,7 @@ from hypothesis import assume, given
 
 from statehtn import Result, Status, validate
 from statehtn.core.grounding import ground
-from statehtn.core.search import SearchSwitches, find_plans
+from statehtn.core.search import SEARCHES, SearchSwitches, find_plans
 from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.risk import Utility
@@ -15,7 +15,8 @@ from tests.differential.oracles import ADMISSIBLE, SECONDS, brute_force, close_t
 from tests.strategies import problems, utilities
 
 
-def check_optimal(problem: Problem, utility: Utility, result: Result) -> None:
+def check(problem: Problem, utility: Utility, result: Result) -> None:
+    """The status, the plan and the bound agree with the optimum by exhaustion."""
     optimum = brute_force(problem, utility)
     if optimum is None:
         assert result.status in (Status.UNSOLVABLE, Status.TIME_LIMIT)
@@ -38,22 +39,28 @@ def check_optimal(problem: Problem, utility: Utility, result: Result) -> None:
 @pytest.mark.parametrize("heuristic", ADMISSIBLE)
 @given(problem=problems(), utility=utilities())
 def test_optimum(heuristic: str, problem: Problem, utility: Utility) -> None:
-    check_optimal(problem, utility, solve(problem, utility, heuristic=heuristic))
+    check(problem, utility, solve(problem, utility, heuristic=heuristic))
 
 
 @given(problem=problems(orders=("total",)), utility=utilities())
 def test_optimum_of_totally_ordered_problems(problem: Problem, utility: Utility) -> None:
-    check_optimal(problem, utility, solve(problem, utility))
+    check(problem, utility, solve(problem, utility))
 
 
 @given(problem=problems(orders=("none", "partial")), utility=utilities())
 def test_optimum_of_partially_ordered_problems(problem: Problem, utility: Utility) -> None:
-    check_optimal(problem, utility, solve(problem, utility))
+    check(problem, utility, solve(problem, utility))
 
 
 @given(problem=problems(), utility=utilities())
 def test_anytime_search_ends_with_the_optimum(problem: Problem, utility: Utility) -> None:
-    check_optimal(problem, utility, solve(problem, utility, search="anytime"))
+    check(problem, utility, solve(problem, utility, search="anytime"))
+
+
+@pytest.mark.parametrize("search", SEARCHES)
+@given(problem=problems(), utility=utilities())
+def test_every_search_keeps_what_its_status_says(search: str, problem: Problem, utility: Utility) -> None:
+    check(problem, utility, solve(problem, utility, search=search))
 
 
 @pytest.mark.parametrize("heuristic", [name for name in ADMISSIBLE if name != "blind"])
