@@ -1,0 +1,48 @@
+#ifndef RELAX_SRC_GROUNDER_ASSEMBLY_HPP
+#define RELAX_SRC_GROUNDER_ASSEMBLY_HPP
+
+#include <vector>
+
+#include "grounder_cases.hpp"
+#include "grounder_task_graph.hpp"
+#include "relax/ground_problem.hpp"
+
+namespace relax::grounding {
+
+// What pruning has left, ready to be written down.
+struct Remains {
+    const Knowledge& knowledge;
+    const TaskGraph& graph;
+    const Cases& cases;
+    const std::vector<std::uint32_t>& fact_begin;  // by predicate
+    const std::vector<bool>& is_initially_true;    // by fact
+    const std::vector<bool>& is_literal_reached;
+};
+
+// Write the ground problem: literals that are always true vanish, and so do
+// facts that nothing reads, artificial actions without a condition, and cases
+// that another one contains.
+GroundProblem assemble(const Remains& remains);
+
+// The conditions that are left to an action node: indices of its cases, with
+// what remains of their preconditions. At least one.
+struct RemainingCase {
+    CaseId number;
+    Conjunction condition;
+};
+std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action);
+
+// The literals of a condition that are not always true.
+Conjunction without_constants(const Remains& remains, std::span<const Literal> condition);
+
+// Facts of preconditions, and of conditions of effects on such facts.
+std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vector<RemainingCase>>& cases_of_actions);
+
+// Append the precondition and the effects of a case, with facts numbered by
+// `number_of_fact`.
+void write_action(const Remains& remains, const RemainingCase& one,
+                  const std::vector<std::optional<FactId>>& number_of_fact, GroundProblem& problem);
+
+}  // namespace relax::grounding
+
+#endif
