@@ -17,6 +17,8 @@ namespace {
 constexpr auto kLookInterval = std::chrono::milliseconds(2);
 constexpr auto kPollInterval = std::chrono::milliseconds(50);
 constexpr std::uint32_t kMostCallsUntilLook = 1U << 14;
+// The part of the memory limit that is left for what grows between two looks.
+constexpr std::size_t kMemoryReserve = 20;
 
 }  // namespace
 
@@ -36,7 +38,7 @@ std::optional<StopReason> Limits::look() {
         last_poll_ = now;
         if (poll && poll()) {
             reason_ = StopReason::Interrupted;
-        } else if (memory_bytes && resident_bytes() > *memory_bytes) {
+        } else if (memory_bytes && resident_bytes() > *memory_bytes - *memory_bytes / kMemoryReserve) {
             reason_ = StopReason::MemoryLimit;
         }
     }

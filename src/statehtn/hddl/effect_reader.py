@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from statehtn.hddl.cost_reader import CostReader
+from statehtn.hddl.cost_reader import Branches, CostReader
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.formula_reader import FormulaReader
@@ -57,12 +57,16 @@ class EffectReader:
                 self._when(node, scope, condition, parameters)
             case "increase":
                 cost = self._cost_reader().increase(node, scope)
-                self.costs.append(CostBlock(((Number(Fraction(1)), cost),), condition, parameters))
+                self._add_cost(((Number(Fraction(1)), cost),), condition, parameters, node)
             case "probabilistic":
                 branches = self._cost_reader().probabilistic(node, scope)
-                self.costs.append(CostBlock(branches, condition, parameters))
+                self._add_cost(branches, condition, parameters, node)
             case _:
                 raise self._refusal(node)
+
+    def _add_cost(self, branches: Branches, condition: Formula, parameters: tuple[Parameter, ...], node: Group) -> None:
+        place = self.reporter.source.place(node.index)
+        self.costs.append(CostBlock(branches, condition, parameters, place=place))
 
     def _when(self, node: Group, scope: Scope, condition: Formula, parameters: tuple[Parameter, ...]) -> None:
         if len(node.items) != 3:

@@ -25,6 +25,8 @@ from statehtn.model.costs import (
 from statehtn.model.formula import TRUE
 from statehtn.model.problem import Action
 
+LARGEST_SHOWN = 10**300  # a float can hold it
+
 ExactLaw = dict[Fraction, Fraction]
 """A cost distribution in exact numbers: the probability of every cost; the probabilities sum to exactly 1."""
 
@@ -129,10 +131,10 @@ def _exact_block(
         try:
             probability = evaluate(probability_expression, bindings, values)
             cost = evaluate(cost_expression, bindings, values) if probability else Fraction(0)
+            _check("a probability", probability)
+            _check("a cost", cost)
         except InputError as error:
-            raise InputError(f"the cost of {_name(action, arguments)}: {error.message}", error.place) from None
-        _check("a probability", probability, action, arguments)
-        _check("a cost", cost, action, arguments)
+            raise InputError(f"the cost of {_name(action, arguments)}: {error.message}", block.place) from None
         if probability:
             law[cost] = law.get(cost, Fraction(0)) + probability
     return _completed(law, block, action, arguments)
@@ -144,7 +146,8 @@ def _completed(law: ExactLaw, block: CostBlock, action: Action, arguments: tuple
     if total > 1 + PROBABILITY_TOLERANCE:
         raise InputError(
             f"the probabilities of the cost of {_name(action, arguments)} sum to {float(total):.12g}, more than 1; "
-            f"the branches of one block must sum to 1"
+            f"the branches of one block must sum to 1",
+            block.place,
         )
     if total < 1 - PROBABILITY_TOLERANCE:
         law[Fraction(0)] = law.get(Fraction(0), Fraction(0)) + 1 - total
@@ -172,7 +175,10 @@ def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) ->
         if not math.isfinite(number):
             raise InputError(f"the external cost of {_name(action, arguments)} must be finite, found {number}")
         exact = Fraction(repr(number))
-        _check("a cost", exact, action, arguments)
+        try:
+            _check("a cost", exact)
+        except InputError as error:
+            raise InputError(f"the external cost of {_name(action, arguments)}: {error.message}") from None
         law[exact] = law.get(exact, Fraction(0)) + Fraction(repr(probability))
     total = sum(law.values(), Fraction(0))
     return law if total == 1 else {cost: probability / total for cost, probability in law.items()}
@@ -194,9 +200,10 @@ def _rounded(law: ExactLaw, action: Action, arguments: tuple[str, ...]) -> CostD
         raise InputError(f"the cost of {_name(action, arguments)} is too large for a floating-point number") from None
 
 
-def _check(what: str, value: Fraction, action: Action, arguments: tuple[str, ...]) -> None:
+def _check(what: str, value: Fraction) -> None:
     if value < 0:
-        raise InputError(f"the cost of {_name(action, arguments)}: {what} must not be negative, found {float(value):g}")
+        shown = f"{float(value):g}" if abs(value) < LARGEST_SHOWN else "a number beyond all bounds"
+        raise InputError(f"{what} must not be negative, found {shown}")
 
 
 def _name(action: Action, arguments: tuple[str, ...]) -> str:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
-from statehtn.errors import InputError
+from statehtn.errors import InputError, Place
 from statehtn.model.formula import TRUE, Formula
 from statehtn.model.types import Parameter
 
@@ -111,12 +111,14 @@ class CostBlock:
             holds.
         external: a Python callable that gives the cost instead of the branches; it gets the action's arguments (object
             names).
+        place: where the block stands in a file, for errors that only show in a ground action; None where there is none.
     """
 
     branches: tuple[tuple[Expression, Expression], ...]
     condition: Formula = TRUE
     parameters: tuple[Parameter, ...] = ()
     external: ExternalCost | None = None
+    place: Place | None = field(default=None, compare=False, repr=False)
 
 
 FunctionValues = Mapping[tuple[str, ...], Fraction]
