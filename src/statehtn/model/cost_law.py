@@ -202,7 +202,7 @@ def _rounded(law: ExactLaw, action: Action, arguments: tuple[str, ...]) -> CostD
 
 def _check(what: str, value: Fraction) -> None:
     if value < 0:
-        shown = f"{float(value):g}" if abs(value) < LARGEST_SHOWN else "a number beyond all bounds"
+        shown = f"{float(value):g}" if abs(value) < LARGEST_SHOWN else "a very large negative number"
         raise InputError(f"{what} must not be negative, found {shown}")
 
 
