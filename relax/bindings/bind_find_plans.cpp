@@ -101,6 +101,7 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("weight", &relax::SearchOptions::weight)
         .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)
         .def_rw("inherit_h", &relax::SearchOptions::inherit_h)
+        .def_rw("ask_adaptively", &relax::SearchOptions::ask_adaptively)
         .def_rw("upper_bound", &relax::SearchOptions::upper_bound);
 
     nb::class_<relax::SearchStatistics>(module, "SearchStatistics")

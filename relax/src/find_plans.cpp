@@ -14,6 +14,10 @@ namespace {
 
 constexpr Cost kDeadEnd = kNoDecomposition;
 
+// Adaptive asking: answers are judged by the window; without a useful one, twice as many nodes as before go unasked.
+constexpr std::uint32_t kAnswerWindow = 32;
+constexpr std::uint32_t kLongestPause = 4096;
+
 SearchStatus status_of(StopReason reason) {
     switch (reason) {
         case StopReason::TimeLimit:
@@ -116,12 +120,17 @@ bool FindPlans::evaluate(NodeId id) {
     if (node.is_evaluated) {
         return true;
     }
+    if (!is_worth_asking()) {
+        node.is_evaluated = true;  // with the cheap bound, which is one, too
+        return true;
+    }
     tasks_.clear();
     progression_.networks().tasks(node.network, tasks_);
     const auto h =
         heuristic_->evaluate({progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
     ++statistics_.evaluated;
     node.is_evaluated = true;
+    note_answer(!h || *h > node.h);
     if (!h) {
         ++statistics_.dead_ends;
         node.h = kDeadEnd;
@@ -133,6 +142,25 @@ bool FindPlans::evaluate(NodeId id) {
         guides_[id] = *h;
     }
     return !is_too_dear(node);
+}
+
+bool FindPlans::is_worth_asking() {
+    if (!options_.ask_adaptively || !is_admissible(options_.heuristic) || unasked_nodes_ == 0) {
+        return true;
+    }
+    --unasked_nodes_;
+    return false;
+}
+
+void FindPlans::note_answer(bool told_more) {
+    ++answers_;
+    useful_answers_ += told_more ? 1 : 0;
+    if (answers_ == kAnswerWindow) {
+        pause_ = useful_answers_ > 0 ? 0 : std::clamp(2 * pause_, kAnswerWindow, kLongestPause);
+        unasked_nodes_ = pause_;
+        answers_ = 0;
+        useful_answers_ = 0;
+    }
 }
 
 void FindPlans::expand(NodeId id) {

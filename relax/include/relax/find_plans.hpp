@@ -27,6 +27,7 @@ struct SearchOptions {
     double weight = 1.0;              // of h, for Weighted; at least 1
     bool use_tdg_bound = true;        // bound nodes by the decomposition graph before the heuristic is asked
     bool inherit_h = true;            // a node's h is at least its parent's less the cost of the step
+    bool ask_adaptively = true;       // ask an admissible heuristic rarely while it tells no more than the cheap bound
     std::optional<Cost> upper_bound;  // only plans that cost less are wanted
 };
 
@@ -49,6 +50,8 @@ private:
     std::optional<StopReason> search();
     bool is_stale(const OpenList::Entry& entry) const;
     bool evaluate(NodeId id);
+    bool is_worth_asking();
+    void note_answer(bool told_more);
     void expand(NodeId id);
     void generate(NodeId parent, const Successor& successor);
     Cost cheap_bound(const SearchNode& parent, const Successor& successor);
@@ -68,6 +71,12 @@ private:
     DuplicateRegistry nodes_;
     SegmentedArray<Cost> guides_;  // by NodeId: the estimate of a heuristic that is not admissible
     OpenList open_;
+    // Of the latest answers of the heuristic: how many there were, how many told more than the cheap bound; then how
+    // many nodes still go without an answer, and how many will the next time.
+    std::uint32_t answers_ = 0;
+    std::uint32_t useful_answers_ = 0;
+    std::uint32_t unasked_nodes_ = 0;
+    std::uint32_t pause_ = 0;
     std::optional<NodeId> goal_;  // of the best plan so far
     std::vector<Successor> successors_;
     std::vector<TaskId> tasks_;

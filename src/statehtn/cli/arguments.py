@@ -59,7 +59,7 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         "plan",
         help="find the plan with the maximum expected utility",
         description="Find the plan with the maximum expected utility for an agent's attitude to risk, and prove it.",
-        epilog=PLAN_EPILOG.format("\n".join(f"  {name:8}{info.description}" for name, info in HEURISTICS.items())),
+        epilog=PLAN_EPILOG.format("\n".join(f"  {name:11}{info.description}" for name, info in HEURISTICS.items())),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )

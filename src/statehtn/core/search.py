@@ -61,6 +61,8 @@ class SearchSwitches:
     """Bound every node by the decomposition graph before the heuristic is asked (not with `blind`)."""
     inherit_h: bool = True
     """A node's h is at least its parent's less the cost of the step between them."""
+    adaptive: bool = True
+    """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +126,7 @@ def find_plans(
         options.weight = stage.weight or weight
         options.use_tdg_bound = switches.tdg_bound
         options.inherit_h = switches.inherit_h
+        options.ask_adaptively = switches.adaptive
         if run.stage(options):
             break
     return run.outcome()
