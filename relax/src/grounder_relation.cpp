@@ -4,30 +4,18 @@
 
 namespace relax::grounding {
 
-namespace {
-
-std::uint64_t hash_of(std::span<const ObjectId> values) {
-    std::uint64_t hash = values.size();
-    for (const ObjectId value : values) {
-        hash = combine(hash, value);
-    }
-    return hash;
-}
-
-}  // namespace
-
 std::optional<TupleId> Relation::find(std::span<const ObjectId> tuple) const {
-    return table_.find(hash_of(tuple), [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); });
+    return table_.find(hash_values(tuple), [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); });
 }
 
 TupleId Relation::add(std::span<const ObjectId> tuple) {
-    const std::uint64_t hash = hash_of(tuple);
+    const std::uint64_t hash = hash_values(tuple);
     const auto equal = [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); };
     if (const auto known = table_.find(hash, equal)) {
         return *known;
     }
     values_.insert(values_.end(), tuple.begin(), tuple.end());
-    table_.add(hash, size_, [this](TupleId other) { return hash_of((*this)[other]); });
+    table_.add(hash, size_, [this](TupleId other) { return hash_values((*this)[other]); });
     return size_++;
 }
 
@@ -75,14 +63,14 @@ void Relation::insert(Index& index, TupleId tuple) const {
     const auto fresh = static_cast<std::uint32_t>(index.newest.size());
     index.older.push_back(tuple);
     index.newest.push_back(tuple);
-    index.table.add(hash_of(key), fresh, [&](std::uint32_t other) {
+    index.table.add(hash_values(key), fresh, [&](std::uint32_t other) {
         read_key(index.newest[other]);
-        return hash_of(key);
+        return hash_values(key);
     });
 }
 
 std::optional<std::uint32_t> Relation::find_key(const Index& index, std::span<const ObjectId> key) const {
-    return index.table.find(hash_of(key), [&](std::uint32_t other) {
+    return index.table.find(hash_values(key), [&](std::uint32_t other) {
         const std::span<const ObjectId> tuple = (*this)[index.newest[other]];
         for (std::size_t at = 0; at < key.size(); ++at) {
             if (tuple[index.positions[at]] != key[at]) {

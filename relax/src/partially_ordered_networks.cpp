@@ -12,14 +12,6 @@ namespace {
 std::size_t row_words(std::size_t count) { return (count + 63) / 64; }
 std::size_t form_words(std::size_t count) { return count * row_words(count) + (count + 1) / 2; }
 
-std::uint64_t hash_form(std::span<const std::uint64_t> form) {
-    std::uint64_t hash = form.size();
-    for (const std::uint64_t word : form) {
-        hash = combine(hash, word);
-    }
-    return hash;
-}
-
 }  // namespace
 
 PartiallyOrderedNetworks::PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds)
@@ -132,7 +124,7 @@ NetworkId PartiallyOrderedNetworks::intern(std::vector<Origin>* origins) {
             origins->push_back(draft_origins_[old]);
         }
     }
-    const std::uint64_t hash = hash_form(form_);
+    const std::uint64_t hash = hash_values(form_);
     const auto known = table_.find(hash, [&](NetworkId id) {
         return records_[id].size == count && std::equal(form_.begin(), form_.end(), records_[id].words);
     });
@@ -144,7 +136,7 @@ NetworkId PartiallyOrderedNetworks::intern(std::vector<Origin>* origins) {
     std::copy(form_.begin(), form_.end(), run.begin());
     records_.push_back({run.data(), bound, static_cast<std::uint32_t>(count)});
     table_.add(hash, id, [this](NetworkId other) {
-        return hash_form({records_[other].words, form_words(records_[other].size)});
+        return hash_values(std::span(records_[other].words, form_words(records_[other].size)));
     });
     return id;
 }

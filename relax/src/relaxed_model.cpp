@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "relax/state.hpp"
+
 namespace relax {
 
 namespace {
@@ -33,7 +35,7 @@ void sort_unique(std::vector<Value>& values) {
 
 RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs,
                            std::span<const Cost> method_costs)
-    : state_fact_count(problem.fact_count()), complement_of_(problem.fact_count(), kAlwaysTrue) {
+    : complement_of_(problem.fact_count(), kAlwaysTrue) {
     std::vector<FactId> negative;
     for (ActionId action = 0; action < problem.action_count(); ++action) {
         const auto row = problem.negative_preconditions[action];
@@ -159,7 +161,7 @@ void RelaxedTask::set(std::span<const std::uint64_t> state, std::span<const Task
         }
     }
     for (const auto& [fact, complement] : model_.complements) {
-        if ((state[fact / 64] >> (fact % 64) & 1U) == 0) {
+        if (!holds(state, fact)) {
             facts_.push_back(complement);
         }
     }

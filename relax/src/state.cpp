@@ -6,12 +6,11 @@ namespace relax {
 
 namespace {
 
-std::uint64_t hash_words(std::span<const std::uint64_t> words) {
-    std::uint64_t hash = words.size();
-    for (const std::uint64_t word : words) {
-        hash = combine(hash, word);
-    }
-    return hash;
+// All facts of the first list hold, and none of the second.
+bool meets(std::span<const std::uint64_t> state, std::span<const FactId> needed, std::span<const FactId> forbidden) {
+    const auto is_true = [state](FactId fact) { return holds(state, fact); };
+    return std::all_of(needed.begin(), needed.end(), is_true) &&
+           std::none_of(forbidden.begin(), forbidden.end(), is_true);
 }
 
 }  // namespace
@@ -25,11 +24,7 @@ StateBits StateTransition::initial_state() const {
 }
 
 bool StateTransition::is_applicable(ActionId action, std::span<const std::uint64_t> state) const {
-    const auto is_true = [state](FactId fact) { return holds(state, fact); };
-    const auto needed = problem_.preconditions[action];
-    const auto forbidden = problem_.negative_preconditions[action];
-    return std::all_of(needed.begin(), needed.end(), is_true) &&
-           std::none_of(forbidden.begin(), forbidden.end(), is_true);
+    return meets(state, problem_.preconditions[action], problem_.negative_preconditions[action]);
 }
 
 void StateTransition::apply(ActionId action, std::span<const std::uint64_t> state,
@@ -54,15 +49,11 @@ void StateTransition::apply(ActionId action, std::span<const std::uint64_t> stat
 }
 
 bool StateTransition::fires(EffectId effect, std::span<const std::uint64_t> state) const {
-    const auto is_true = [state](FactId fact) { return holds(state, fact); };
-    const auto needed = problem_.effect_conditions[effect];
-    const auto forbidden = problem_.effect_negative_conditions[effect];
-    return std::all_of(needed.begin(), needed.end(), is_true) &&
-           std::none_of(forbidden.begin(), forbidden.end(), is_true);
+    return meets(state, problem_.effect_conditions[effect], problem_.effect_negative_conditions[effect]);
 }
 
 StateId StateRegistry::intern(std::span<const std::uint64_t> state) {
-    const std::uint64_t hash = hash_words(state);
+    const std::uint64_t hash = hash_values(state);
     const auto known =
         table_.find(hash, [&](StateId id) { return std::equal(state.begin(), state.end(), (*this)[id].begin()); });
     if (known) {
@@ -72,7 +63,7 @@ StateId StateRegistry::intern(std::span<const std::uint64_t> state) {
     const auto run = words_.allocate(word_count_);
     std::copy(state.begin(), state.end(), run.begin());
     starts_.push_back(run.data());
-    table_.add(hash, id, [this](StateId other) { return hash_words((*this)[other]); });
+    table_.add(hash, id, [this](StateId other) { return hash_values((*this)[other]); });
     return id;
 }
 

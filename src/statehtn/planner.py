@@ -24,7 +24,6 @@ from statehtn.validate import validate
 
 SOLVERS: dict[str, str] = {"state": "A* progression search over states and task networks (paper Algorithm 4)"}
 DEFAULT_WEIGHT = 2.0
-ENDLESS_SECONDS = 1e9  # a longer time limit is none
 
 ProgressCallback = Callable[[Progress], None]
 
@@ -106,7 +105,7 @@ def plan(
         UnsupportedError: the problem asks for something that the planner does not do.
     """
     query = Query.of(attitude, alpha, solver, heuristic, search, weight)
-    limits = _start_limits(time_limit, memory_limit)
+    limits = Limits.starting_now(time_limit, memory_limit)
     return _solve(problem, query, limits, progress, Statistics())
 
 
@@ -125,7 +124,7 @@ def plan_files(
     Returns the result, and the problem where it was read to its end. The other arguments and what it raises: see `plan`
     and `read_hddl`.
     """
-    limits = _start_limits(time_limit, memory_limit)
+    limits = Limits.starting_now(time_limit, memory_limit)
     start = time.perf_counter()
     try:
         read = read_hddl(domain, problem, strict=strict, limits=limits)
@@ -161,11 +160,6 @@ def status_of(ending: BaseException) -> Status:
             return Status.MEMORY_LIMIT
         case _:
             return Status.INTERRUPTED
-
-
-def _start_limits(time_limit: float | None, memory_limit: float | None) -> Limits:
-    limits = Limits.starting_now(time_limit, memory_limit)
-    return replace(limits, deadline=None) if time_limit is not None and time_limit > ENDLESS_SECONDS else limits
 
 
 def _solve(

@@ -21,6 +21,15 @@ inline std::uint64_t combine(std::uint64_t seed, std::uint64_t word) {
     return mix(seed * 0x9e3779b97f4a7c15ULL + word + 1);
 }
 
+template <typename Range>
+std::uint64_t hash_values(const Range& values) {
+    std::uint64_t hash = values.size();
+    for (const auto value : values) {
+        hash = combine(hash, value);
+    }
+    return hash;
+}
+
 // A hash table of dense numbers whose keys live elsewhere: open addressing, linear probing. Half of each hash is kept,
 // so that full keys are compared only when they are very likely equal.
 class IdTable {

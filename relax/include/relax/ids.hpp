@@ -26,7 +26,6 @@ template <typename Value>
 class Rows {
 public:
     std::size_t size() const { return ends_.size(); }
-    std::size_t value_count() const { return values_.size(); }
 
     std::span<const Value> operator[](std::size_t row) const {
         const std::size_t begin = row == 0 ? 0 : ends_[row - 1];

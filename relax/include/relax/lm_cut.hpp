@@ -23,8 +23,6 @@ public:
     // the rounds early, with a lower bound all the same.
     std::optional<Cost> run(const RelaxedTask& task);
 
-    std::uint64_t rounds() const { return rounds_; }
-
 private:
     enum class Zone : std::uint8_t { Neither, Goal, Before };
 

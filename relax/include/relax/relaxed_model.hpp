@@ -53,7 +53,6 @@ public:
 
     // Facts that are read negatively, and the complement of each.
     std::vector<std::pair<FactId, RelaxedFact>> complements;
-    std::size_t state_fact_count = 0;
 
 private:
     void add_action(const GroundProblem& problem, ActionId action);
