@@ -10,7 +10,22 @@ import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from statehtn.model import TRUE, And, Atom, Effect, Exists, Fact, Forall, Formula, Method, Not, Or, Problem, TaskNetwork
+from statehtn.model import (
+    TRUE,
+    Action,
+    And,
+    Atom,
+    Effect,
+    Exists,
+    Fact,
+    Forall,
+    Formula,
+    Method,
+    Not,
+    Or,
+    Problem,
+    TaskNetwork,
+)
 from tests.naive_semantics import Bindings, Semantics
 
 GroundTask = tuple[str, ...]  # a task's name and arguments
@@ -124,20 +139,36 @@ class NaiveGrounder:
         for effect in action.effects:
             for more in self.semantics.all_bindings(effect.parameters):
                 inner = {**bindings, **more}
-                condition = And((action.precondition, effect.condition)) if self.joint else effect.condition
                 fact = self.atom(effect.atom, inner)
-                if (effect.positive or fact not in always) and self.is_satisfiable(condition, inner):
+                if not effect.positive and fact in always:
+                    continue
+                happens = [(effect.condition, inner)]
+                if self.joint:
+                    happens.append((action.precondition, bindings))
+                    happens += [] if effect.positive else self.keeping(action, fact, bindings)
+                if self.is_satisfiable_at_once(happens):
                     yield fact, effect.positive
+
+    def keeping(self, action: Action, fact: Fact, bindings: Bindings) -> Iterator[tuple[Formula, Bindings]]:
+        """Yield the conditions on which no effect of the action adds a fact."""
+        for effect in action.effects:
+            for more in self.semantics.all_bindings(effect.parameters):
+                inner = {**bindings, **more}
+                if effect.positive and self.atom(effect.atom, inner) == fact:
+                    yield Not(effect.condition), inner
 
     def atom(self, atom: Atom, bindings: Bindings) -> Fact:
         return (atom.predicate, *(bindings.get(term, term) for term in atom.arguments))
 
     def is_satisfiable(self, formula: Formula, bindings: Bindings) -> bool:
-        """Tell whether reached truth values, one for each fact, make the formula true."""
-        facts = sorted(set(self.atoms(formula, bindings)))
+        return self.is_satisfiable_at_once([(formula, bindings)])
+
+    def is_satisfiable_at_once(self, formulas: list[tuple[Formula, Bindings]]) -> bool:
+        """Tell whether reached truth values, one for each fact, make all formulas true."""
+        facts = sorted({fact for formula, bindings in formulas for fact in self.atoms(formula, bindings)})
         values = [[value for value in (False, True) if (fact, value) in self.reached] for fact in facts]
         states = (frozenset(itertools.compress(facts, chosen)) for chosen in itertools.product(*values))
-        return any(self.semantics.holds(formula, bindings, state) for state in states)
+        return any(all(self.semantics.holds(*formula, state) for formula in formulas) for state in states)
 
     def atoms(self, formula: Formula, bindings: Bindings) -> Iterator[Fact]:
         match formula:

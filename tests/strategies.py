@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from hypothesis import strategies as st
 
+from statehtn.core.grounding import GroundingSwitches
 from statehtn.model import (
     TRUE,
     Action,
@@ -211,7 +212,7 @@ def method(
     tasks: dict[str, Signature],
     orders: tuple[str, ...],
 ) -> Method:
-    parameters = task.parameters + (names.parameters(draw, 1, "z") if chance(draw, 0.5) else ())
+    parameters = task.parameters + names.parameters(draw, draw(st.sampled_from((0, 0, 0, 1, 1, 3))), "z")
     precondition = names.precondition(draw, parameters, (0, 0, 0, 0, 1, 1, 2))
     later = {other: signature for other, signature in tasks.items() if other > task.name}
     paying = [action for action in actions.values() if is_costly(action, actions)]
@@ -271,6 +272,11 @@ def ordering(draw: Draw, size: int, orders: tuple[str, ...]) -> tuple[tuple[int,
         case "partial":
             return tuple(pair for pair in pairs if draw(st.booleans()))
     return ()
+
+
+def grounding_switches() -> st.SearchStrategy[GroundingSwitches]:
+    """All combinations of the refinements of grounding."""
+    return st.builds(GroundingSwitches, st.booleans(), st.booleans(), st.booleans())
 
 
 def utilities() -> st.SearchStrategy[Utility]:

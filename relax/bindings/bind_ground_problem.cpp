@@ -38,13 +38,13 @@ using GroundingResult =
     std::variant<GroundProblem, relax::StopReason, std::tuple<std::uint32_t, std::vector<relax::ObjectId>>>;
 
 // Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases.
-GroundingResult ground(const relax::LiftedProblem& problem, std::optional<double> seconds,
-                       std::optional<std::size_t> memory_bytes) {
+GroundingResult ground(const relax::LiftedProblem& problem, bool merge_equal, bool replace_single_methods,
+                       std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
     relax::Limits limits = python_limits(seconds, memory_bytes);
     std::variant<GroundProblem, relax::StopReason, relax::TooManyCasesOf> result;
     {
         const nb::gil_scoped_release no_gil;
-        result = relax::ground(problem, limits);
+        result = relax::ground(problem, {merge_equal, replace_single_methods}, limits);
     }
     if (auto* ground = std::get_if<GroundProblem>(&result)) {
         return std::move(*ground);
@@ -77,10 +77,12 @@ void bind_ground_problem(nb::module_& module) {
         .def_ro("solvable", &GroundProblem::solvable)
         .def("method_task",
              [](const GroundProblem& problem, std::size_t method) { return problem.method_task.at(method); })
-        .def("method_schema",
-             [](const GroundProblem& problem, std::size_t method) { return problem.method_schema.at(method); })
-        .def("method_is_choice",
-             [](const GroundProblem& problem, std::size_t method) { return bool(problem.method_is_choice.at(method)); })
+        .def("method_parts",
+             [](const GroundProblem& problem, std::size_t method) {
+                 return std::pair(problem.method_part_begin.at(method), problem.method_part_begin.at(method + 1));
+             })
+        .def("part_schema", [](const GroundProblem& problem, std::size_t part) { return problem.part_schema.at(part); })
+        .def("part_origin", [](const GroundProblem& problem, std::size_t part) { return problem.part_origin.at(part); })
         .def("effects",
              [](const GroundProblem& problem, std::size_t action) {
                  return std::pair(problem.effect_begin.at(action), problem.effect_begin.at(action + 1));
@@ -95,10 +97,10 @@ void bind_ground_problem(nb::module_& module) {
         .def("effect_adds", &row<&GroundProblem::effect_adds>)
         .def("effect_deletes", &row<&GroundProblem::effect_deletes>)
         .def("compound_arguments", &row<&GroundProblem::compound_arguments>)
-        .def("method_arguments", &row<&GroundProblem::method_arguments>)
+        .def("part_arguments", &row<&GroundProblem::part_arguments>)
         .def("method_subtasks", &row<&GroundProblem::method_subtasks>)
         .def("method_positions", &row<&GroundProblem::method_positions>)
         .def("method_ordering", &row<&GroundProblem::method_ordering>);
 
-    module.def("ground", &ground, "problem"_a, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none());
+    module.def("ground", &ground, "problem"_a, "merge_equal"_a, "replace_single_methods"_a, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none());
 }

@@ -2,36 +2,80 @@
 
 #include <new>
 #include <utility>
-#include <vector>
 
-#include "cases.hpp"
-#include "emission.hpp"
-#include "pruning.hpp"
-#include "reachability.hpp"
+#include "grounder_assembly.hpp"
+#include "grounder_pruning.hpp"
+#include "grounder_stop.hpp"
 
 namespace relax {
 
-std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem, Limits& limits) {
-    try {
-        Reachability reachability(problem, limits);
-        reachability.run();
-        CaseBuilder builder(reachability);
-        std::vector<ActionCase> cases;
-        try {
-            for (const TaskInstance& instance : reachability.needed()) {
-                reachability.check_limits();
-                if (instance.task < problem.actions.size()) {
-                    builder.build(instance, cases);
-                }
-            }
-        } catch (const TooManyCases& error) {
-            const auto arguments = reachability.instances(error.instance.task)[error.instance.tuple];
-            return TooManyCasesOf{error.instance.task, {arguments.begin(), arguments.end()}};
+namespace {
+
+using namespace grounding;
+
+GroundProblem unsolvable() {
+    GroundProblem problem;
+    problem.effect_begin.push_back(0);
+    problem.solvable = false;
+    return problem;
+}
+
+std::vector<bool> initial_truth(const Expander& expander, std::uint32_t predicate_count) {
+    std::vector<bool> is_true(expander.fact_count(), false);
+    for (std::uint32_t predicate = 0; predicate < predicate_count; ++predicate) {
+        for (std::uint32_t fact = expander.fact_begin()[predicate]; fact < expander.fact_begin()[predicate + 1];
+             ++fact) {
+            is_true[fact] = expander.is_initially_true(predicate, fact - expander.fact_begin()[predicate]);
         }
-        const Pruned pruned = prune(reachability, builder, cases);
-        return emit(reachability, builder, std::move(cases), pruned);
-    } catch (const GroundingStopped& stopped) {
+    }
+    return is_true;
+}
+
+// Fewer demanded actions leave more predicates static, which may narrow the
+// demand further.
+Demand first_demand(Knowledge& knowledge) {
+    std::vector<bool> is_demanded(knowledge.task_count(), true);
+    while (true) {
+        classify_predicates(knowledge, is_demanded);
+        Demand demand = find_demand(knowledge, possible_arguments(knowledge));
+        if (demand.is_demanded == is_demanded) {
+            return demand;
+        }
+        is_demanded = demand.is_demanded;
+    }
+}
+
+GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& options, Limits& limits) {
+    const LiftedProblem& lifted = knowledge.problem;
+    const Dependents dependents = reach_actions(knowledge, first_demand(knowledge), limits);
+    const Demand demand = find_demand(knowledge, reached_arguments(knowledge));
+    reach_tasks(knowledge, demand, limits);
+    if (knowledge.relations[knowledge.task_relation(lifted.initial_task)].size() == 0) {
+        return unsolvable();
+    }
+    TaskGraph graph = expand_methods(knowledge, demand, limits);
+    const Expander expander(knowledge);
+    Cases cases = make_cases(knowledge, expander, graph, dependents, limits);
+    const std::vector<bool> is_initially_true = initial_truth(expander, lifted.predicate_count);
+    const std::vector<bool> is_literal_reached = prune(graph, cases, is_initially_true, limits);
+    if (!graph.is_node_alive[graph.initial]) {
+        return unsolvable();
+    }
+    return assemble({knowledge, graph, cases, expander.fact_begin(), is_initially_true, is_literal_reached, options});
+}
+
+}  // namespace
+
+std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
+                                                                const GroundingOptions& options, Limits& limits) {
+    Knowledge knowledge(problem);
+    try {
+        return ground_or_throw(knowledge, options, limits);
+    } catch (const Stopped& stopped) {
         return stopped.reason;
+    } catch (const TooManyCases& error) {
+        const auto arguments = knowledge.relations[knowledge.task_relation(error.action)][error.instance];
+        return TooManyCasesOf{error.action, {arguments.begin(), arguments.end()}};
     } catch (const std::bad_alloc&) {
         return StopReason::MemoryLimit;
     }

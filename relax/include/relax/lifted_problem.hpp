@@ -70,7 +70,7 @@ struct LiftedMethod {
     std::uint32_t slot_count = 0;
     std::uint32_t task = 0;
     std::vector<Term> task_arguments;
-    Formula constraints;  // Equals and InDomain only
+    Formula constraints;  // of predicates that no action changes
     std::vector<LiftedSubtask> subtasks;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ordering;
 };

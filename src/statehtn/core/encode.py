@@ -1,17 +1,16 @@
 """From names to numbers: the lifted problem as the compiled grounder takes it.
 
-Three things become tasks here. The initial network is a method of an artificial initial task; a method's precondition
-is an action without effects before all its subtasks; the goal is such an action after all tasks of the initial network.
+What the grounder has no words for has become tasks and methods before (`schemes`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import statehtn._relax as _relax
+from statehtn.core.schemes import INITIAL_TASK, Guard, Scheme, method_schemes
 from statehtn.model import (
-    TRUE,
     Action,
     And,
     Atom,
@@ -19,16 +18,13 @@ from statehtn.model import (
     Exists,
     Forall,
     Formula,
-    Method,
     Not,
     OfType,
     Or,
     Parameter,
     Problem,
-    TaskNetwork,
 )
 from statehtn.model.cost_law import is_unconditional
-from statehtn.model.formula import free_variables
 
 Kind = _relax.FormulaKind
 
@@ -37,8 +33,7 @@ Kind = _relax.FormulaKind
 class Encoding:
     """A lifted problem in numbers, and what the numbers mean.
 
-    `actions` and `methods` are by schema number: None for artificial actions, and for the method that stands for the
-    initial network.
+    `actions` and `schemes` are by the core's schema numbers; artificial actions are None.
     """
 
     problem: Problem
@@ -48,12 +43,12 @@ class Encoding:
     actions: list[Action | None] = field(default_factory=list)
     action_names: list[str] = field(default_factory=list)
     tasks: list[str] = field(default_factory=list)
-    methods: list[Method | None] = field(default_factory=list)
+    schemes: list[Scheme] = field(default_factory=list)
 
 
-def encode(problem: Problem) -> Encoding:
-    """Return the problem as the compiled grounder takes it."""
-    return _Encoder(problem).run()
+def encode(problem: Problem, split: bool = True) -> Encoding:
+    """Return the problem as the compiled grounder takes it; `split` parts unrelated choices of methods."""
+    return _Encoder(problem).run(split)
 
 
 class _Scope:
@@ -84,51 +79,35 @@ class _Encoder:
         self.predicate_numbers = {name: number for number, name in enumerate(self.result.predicates)}
         self.domain_numbers: dict[tuple[str, ...], int] = {}
         self.domains: list[list[int]] = []
+        self.numbers: dict[str, int] = {}  # of tasks
 
-    def run(self) -> Encoding:
+    def run(self, split: bool) -> Encoding:
         problem, domain, result = self.problem, self.problem.domain, self.result
-        methods = list(domain.methods.values())
-        guards = {method.name: _needed(method.parameters, method.precondition) for method in methods}
-        result.actions = list(domain.actions.values())
-        result.action_names = list(domain.actions)
-        for method in methods:
-            if method.precondition != TRUE:
-                result.actions.append(None)
-                result.action_names.append(f"precondition of {method.name}")
-        if problem.goal != TRUE:
-            result.actions.append(None)
-            result.action_names.append("goal")
-        result.tasks = [*domain.tasks, "initial network"]
-        numbers = {name: number for number, name in enumerate([*domain.actions])}
-        numbers.update((name, len(result.actions) + number) for number, name in enumerate(domain.tasks))
+        guards, result.schemes = method_schemes(problem, split)
+        result.actions = [*domain.actions.values(), *(None for _ in guards)]
+        result.action_names = [*domain.actions, *(guard.name for guard in guards)]
+        tasks = {name: signature.parameters for name, signature in domain.tasks.items()}
+        for scheme in result.schemes:
+            if scheme.is_part:
+                given = {parameter.name: parameter for parameter in scheme.parameters}
+                tasks[scheme.task] = tuple(given[name] for name in scheme.arguments)
+        tasks[INITIAL_TASK] = ()
+        result.tasks = list(tasks)
+        self.numbers = {name: number for number, name in enumerate([*result.action_names, *tasks])}
 
         for action in domain.actions.values():
             self.add_action(action)
-        for method in methods:
-            if method.precondition != TRUE:
-                self.add_guard(guards[method.name], method.precondition)
-        if problem.goal != TRUE:
-            self.add_guard((), problem.goal)
-        for signature in domain.tasks.values():
-            self.handle.add_task(self.domains_of(signature.parameters))
-        self.handle.add_task([])
-
-        guard = len(domain.actions)
-        for method in methods:
-            before: list[tuple[int, tuple[str, ...]]] = []
-            if method.precondition != TRUE:
-                before.append((guard, tuple(parameter.name for parameter in guards[method.name])))
-                guard += 1
-            task = numbers[method.task]
-            self.add_method(method, method.parameters, task, method.arguments, method.network, numbers, before)
-        after = [(guard, ())] if problem.goal != TRUE else []
-        initial_task = len(result.actions) + len(domain.tasks)
-        self.add_method(None, problem.parameters, initial_task, (), problem.network, numbers, [], after)
+        for guard in guards:
+            self.add_guard(guard)
+        for parameters in tasks.values():
+            self.handle.add_task(self.domains_of(parameters))
+        for scheme in result.schemes:
+            self.add_method(scheme)
 
         self.handle.object_count = len(result.objects)
         self.handle.predicate_count = len(result.predicates)
         self.handle.domains = self.domains
-        self.handle.initial_task = initial_task
+        self.handle.initial_task = self.numbers[INITIAL_TASK]
         objects = self.object_numbers
         self.handle.initial_state = sorted(
             [self.predicate_numbers[name], *(objects[argument] for argument in arguments)]
@@ -156,43 +135,24 @@ class _Encoder:
                 costs.append(_relax.LiftedCostCondition(index, variables, condition))
         self.handle.add_action(self.domains_of(action.parameters), scope.count, precondition, effects, costs, False)
 
-    def add_guard(self, parameters: Sequence[Parameter], condition: Formula) -> None:
+    def add_guard(self, guard: Guard) -> None:
         """Add an artificial action that only tests a condition."""
-        scope = _Scope(parameters)
-        precondition = self.formula(condition, scope)
-        self.handle.add_action(self.domains_of(parameters), scope.count, precondition, [], [], True)
+        scope = _Scope(guard.parameters)
+        precondition = self.formula(guard.condition, scope)
+        self.handle.add_action(self.domains_of(guard.parameters), scope.count, precondition, [], [], True)
 
-    def add_method(
-        self,
-        method: Method | None,
-        parameters: Sequence[Parameter],
-        task: int,
-        arguments: Sequence[str],
-        network: TaskNetwork,
-        numbers: Mapping[str, int],
-        before: Sequence[tuple[int, tuple[str, ...]]],
-        after: Sequence[tuple[int, tuple[str, ...]]] = (),
-    ) -> None:
-        """Add a method whose network is preceded by the tasks `before` and followed by the tasks `after`."""
-        scope = _Scope(parameters)
-        constraints = self.formula(network.constraints, scope)
-        own = [(numbers[subtask.task], subtask.arguments) for subtask in network.subtasks]
-        subtasks = [(number, self.terms(names, scope)) for number, names in (*before, *own, *after)]
-        offset = len(before)
-        middle = range(offset, offset + len(own))
-        ordering = [(offset + first, offset + second) for first, second in network.ordering]
-        ordering += [(guard, other) for guard in range(offset) for other in middle]
-        ordering += [(other, guard) for guard in range(offset + len(own), len(subtasks)) for other in middle]
+    def add_method(self, scheme: Scheme) -> None:
+        scope = _Scope(scheme.parameters)
+        constraints = self.formula(scheme.constraints, scope)
         self.handle.add_method(
-            self.domains_of(parameters),
+            self.domains_of(scheme.parameters),
             scope.count,
-            task,
-            self.terms(arguments, scope),
+            self.numbers[scheme.task],
+            self.terms(scheme.arguments, scope),
             constraints,
-            subtasks,
-            ordering,
+            [(self.numbers[subtask.task], self.terms(subtask.arguments, scope)) for subtask in scheme.subtasks],
+            scheme.ordering,
         )
-        self.result.methods.append(method)
 
     def quantified(
         self, parameters: Sequence[Parameter], condition: Formula, names: Sequence[str], scope: _Scope
@@ -243,9 +203,3 @@ class _Encoder:
             number = self.domain_numbers[types] = len(self.domains)
             self.domains.append([self.object_numbers[name] for name in self.problem.objects_of(types)])
         return number
-
-
-def _needed(parameters: Sequence[Parameter], condition: Formula) -> tuple[Parameter, ...]:
-    """Return the parameters that a condition mentions."""
-    names = set(free_variables(condition))
-    return tuple(parameter for parameter in parameters if parameter.name in names)

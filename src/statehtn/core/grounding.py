@@ -24,6 +24,25 @@ _STATUSES = {
 
 
 @dataclass(frozen=True)
+class GroundingSwitches:
+    """Refinements of grounding: each makes ground problems smaller and keeps the set of plans.
+
+    Args:
+        split_methods: part choices of a method that have nothing to do with each other.
+        merge_equal: let equal artificial actions be one, and equal methods of a task.
+        replace_single_methods: replace tasks of a single method by its subtasks, where that does not copy much.
+    """
+
+    split_methods: bool = True
+    merge_equal: bool = True
+    replace_single_methods: bool = True
+
+
+PLAIN = GroundingSwitches(split_methods=False, merge_equal=False, replace_single_methods=False)
+"""Tasks and methods as they stand in the domain, one by one."""
+
+
+@dataclass(frozen=True)
 class Grounding:
     """A ground problem and what it was made from.
 
@@ -32,12 +51,14 @@ class Grounding:
         encoding: what the core's numbers mean.
         handle: the ground problem in the core.
         laws: the cost distribution of each ground action; equal ones are mostly the same object.
+        switches: which refinements were on.
     """
 
     problem: Problem
     encoding: Encoding
     handle: _relax.GroundProblem
     laws: tuple[CostDistribution, ...]
+    switches: GroundingSwitches
 
     @property
     def fact_count(self) -> int:
@@ -83,6 +104,7 @@ class Grounding:
             methods=tuple(self._method(method) for method in range(handle.method_count)),
             initial_state=frozenset(handle.initial_state),
             initial_task=handle.initial_task,
+            is_plain=self.switches == PLAIN,
         )
 
     def task_name(self, schema: int) -> str:
@@ -112,28 +134,36 @@ class Grounding:
 
     def _method(self, method: int) -> GroundMethod:
         handle = self.handle
-        lifted = None if handle.method_is_choice(method) else self.encoding.methods[handle.method_schema(method)]
-        name = lifted.name if lifted else "case" if handle.method_is_choice(method) else "initial network"
+        parts = range(*handle.method_parts(method))
+        lifted = self.encoding.schemes[handle.part_schema(parts.start)].method if parts else None
+        name = lifted.name if lifted else "initial network" if parts else "case"
         return GroundMethod(
             name,
-            self.objects(handle.method_arguments(method)),
+            self.objects(handle.part_arguments(parts.start)) if parts else (),
             handle.method_task(method),
             tuple(handle.method_subtasks(method)),
             tuple(handle.method_ordering(method)),
         )
 
 
-def ground(problem: Problem, limits: Limits = Limits()) -> Grounding:
+def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitches = GroundingSwitches()) -> Grounding:
     """Ground a problem: only what can be reached, and only what the initial network can lead to.
+
+    Args:
+        problem: the lifted problem.
+        limits: they hold for grounding, too.
+        switches: `PLAIN` for graphs and the reference solver, which speak of the domain's own methods.
 
     Raises:
         LimitReached: a limit was reached, or Ctrl-C.
         InputError: the cost of a reachable action is not defined, or is no distribution.
         UnsupportedError: a precondition falls into too many cases.
     """
-    encoding = encode(problem)
+    encoding = encode(problem, switches.split_methods)
     handle = _relax.ground(
         encoding.handle,
+        switches.merge_equal,
+        switches.replace_single_methods,
         None if limits.deadline is None else limits.deadline - time.monotonic(),
         None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
     )
@@ -145,7 +175,7 @@ def ground(problem: Problem, limits: Limits = Limits()) -> Grounding:
         raise UnsupportedError(
             f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?"
         )
-    return Grounding(problem, encoding, handle, tuple(_laws(encoding, handle, limits)))
+    return Grounding(problem, encoding, handle, tuple(_laws(encoding, handle, limits)), switches)
 
 
 def _laws(encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> list[CostDistribution]:

@@ -70,7 +70,11 @@ class GroundMethod:
 
 @dataclass(frozen=True)
 class GroundProblem:
-    """A ground cost-variable HTN problem with one initial task, whose only methods stand for the initial network."""
+    """A ground cost-variable HTN problem with one initial task, whose only methods stand for the initial network.
+
+    Where it is plain, every method is one of the domain's, or a case of an action. Otherwise it may be a part
+    of one, or several that were applied at once.
+    """
 
     facts: tuple[Fact, ...]
     actions: tuple[GroundAction, ...]
@@ -78,6 +82,7 @@ class GroundProblem:
     methods: tuple[GroundMethod, ...]
     initial_state: frozenset[int]
     initial_task: int
+    is_plain: bool = True
 
     @cached_property
     def methods_of(self) -> dict[int, tuple[int, ...]]:

@@ -1,6 +1,7 @@
 """The paper's state-based solver as executable pseudo-code (Algorithms 4 and 5): slow, readable, open to any heuristic.
 
-`find_plans(ground(problem).to_model(), utility, hmax)` solves a problem, with `ground` from `statehtn.core.grounding`.
+`find_plans(ground(problem, switches=PLAIN).to_model(), utility, hmax)` solves a problem, with `ground` and `PLAIN` from
+`statehtn.core.grounding`.
 """
 
 from __future__ import annotations

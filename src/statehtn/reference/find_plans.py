@@ -83,7 +83,12 @@ def find_plans(
         most_expansions: give up after so many; None: never. Recursion can make the
             space infinite.
         visit: is called with every node that is expanded and the heuristic's value there.
+
+    Raises:
+        ValueError: the problem is not plain, so that no decomposition could be read from it.
     """
+    if not problem.is_plain:
+        raise ValueError("the reference search takes plain ground problems: ground(problem, switches=PLAIN)")
     counter = itertools.count()
     fringe: list[tuple[float, int, int, float, SearchNode]] = []
     cheapest: dict[tuple[object, ...], float] = {}

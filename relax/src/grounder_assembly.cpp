@@ -1,0 +1,218 @@
+#include "grounder_assembly.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "grounder_composition.hpp"
+
+namespace relax::grounding {
+
+namespace {
+
+class Assembly {
+public:
+    explicit Assembly(const Remains& remains)
+        : remains_(remains),
+          is_void_(remains.graph.action_node_count, false),
+          stands_for_(remains.graph.is_node_alive.size()),
+          task_of_node_(remains.graph.is_node_alive.size()) {
+        std::iota(stands_for_.begin(), stands_for_.end(), 0U);
+    }
+
+    GroundProblem run() {
+        find_cases();
+        composition_.emplace(lifted(), remains_.graph, is_void_, stands_for_, remains_.options);
+        number_facts();
+        write_actions();
+        write_compounds();
+        write_methods();
+        write_choices();
+        write_methods_by_task();
+        problem_.initial_task = *task_of_node_[remains_.graph.initial];
+        return std::move(problem_);
+    }
+
+private:
+    const LiftedProblem& lifted() const { return remains_.knowledge.problem; }
+
+    template <typename Visit>
+    void for_each_living_node(std::uint32_t task, Visit visit) {
+        for (NodeId node = remains_.graph.task_begin[task]; node < remains_.graph.task_begin[task + 1]; ++node) {
+            if (remains_.graph.is_node_alive[node]) {
+                visit(node);
+            }
+        }
+    }
+
+    std::span<const ObjectId> arguments_of(std::uint32_t task, NodeId node) const {
+        return remains_.knowledge
+            .relations[remains_.knowledge.task_relation(task)][node - remains_.graph.task_begin[task]];
+    }
+
+    void find_cases() {
+        cases_.resize(remains_.graph.action_node_count);
+        for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
+            for_each_living_node(action, [&](NodeId node) {
+                std::vector<RemainingCase> cases = remaining_cases(remains_, node);
+                if (!lifted().actions[action].is_artificial) {
+                    cases_[node] = std::move(cases);
+                } else if (cases[0].condition.empty()) {
+                    is_void_[node] = true;
+                } else {
+                    find_test(node, std::move(cases));
+                }
+            });
+        }
+    }
+
+    // Artificial actions only test something, so that any that tests the same will do.
+    void find_test(NodeId node, std::vector<RemainingCase> cases) {
+        std::vector<Conjunction> content;
+        for (const RemainingCase& one : cases) {
+            content.push_back(one.condition);
+        }
+        std::ranges::sort(content);
+        if (remains_.options.merge_equal) {
+            stands_for_[node] = tests_.try_emplace(std::move(content), node).first->second;
+        }
+        if (stands_for_[node] == node) {
+            cases_[node] = std::move(cases);
+        }
+    }
+
+    void number_facts() {
+        const std::vector<bool> is_read = read_facts(remains_, cases_);
+        number_of_fact_.resize(is_read.size());
+        for (std::uint32_t predicate = 0; predicate < lifted().predicate_count; ++predicate) {
+            for (std::uint32_t fact = remains_.fact_begin[predicate]; fact < remains_.fact_begin[predicate + 1];
+                 ++fact) {
+                if (is_read[fact]) {
+                    const auto number = static_cast<FactId>(problem_.fact_count());
+                    number_of_fact_[fact] = number;
+                    problem_.fact_predicate.push_back(predicate);
+                    problem_.fact_arguments.add_row(
+                        remains_.knowledge.relations[predicate][fact - remains_.fact_begin[predicate]]);
+                    if (remains_.is_initially_true[fact]) {
+                        problem_.initial_state.push_back(number);
+                    }
+                }
+            }
+        }
+    }
+
+    // An action node with several cases becomes a choice, numbered after the
+    // compound tasks.
+    void write_actions() {
+        problem_.effect_begin.push_back(0);
+        for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
+            for_each_living_node(action, [&](NodeId node) {
+                if (cases_[node].size() == 1) {
+                    task_of_node_[node] = static_cast<TaskId>(problem_.action_count());
+                } else if (cases_[node].size() > 1) {
+                    choices_.push_back({action, node, static_cast<ActionId>(problem_.action_count())});
+                }
+                for (const RemainingCase& one : cases_[node]) {
+                    write_action(one, number_of_fact_, problem_);
+                    problem_.action_schema.push_back(action);
+                    problem_.action_arguments.add_row(arguments_of(action, node));
+                    problem_.action_cost_parts.add_row(remains_.cases.cost_parts[one.number]);
+                }
+            });
+        }
+    }
+
+    void write_compounds() {
+        const auto add = [&](std::uint32_t task, NodeId node) {
+            task_of_node_[node] = static_cast<TaskId>(problem_.task_count());
+            problem_.compound_schema.push_back(task);
+            problem_.compound_arguments.add_row(arguments_of(task, node));
+        };
+        for (auto task = static_cast<std::uint32_t>(lifted().actions.size()); task < remains_.knowledge.task_count();
+             ++task) {
+            for_each_living_node(task, [&](NodeId node) {
+                if (composition_->is_kept(node)) {
+                    add(task, node);
+                }
+            });
+        }
+        for (const Choice& choice : choices_) {
+            add(choice.action, choice.node);
+        }
+    }
+
+    void write_methods() {
+        const TaskGraph& graph = remains_.graph;
+        problem_.method_part_begin.push_back(0);
+        for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
+            if (graph.is_method_alive[method] && composition_->is_kept(graph.method_task[method])) {
+                problem_.method_task.push_back(*task_of_node_[graph.method_task[method]]);
+                write_network(composition_->compose(method));
+            }
+        }
+    }
+
+    void write_network(const ComposedNetwork& network) {
+        for (const ComposedNetwork::Part& part : network.parts) {
+            problem_.part_schema.push_back(remains_.graph.method_schema[part.method]);
+            problem_.part_arguments.add_row(remains_.graph.method_arguments[part.method]);
+            problem_.part_origin.emplace_back(part.parent, part.position);
+        }
+        problem_.method_part_begin.push_back(static_cast<std::uint32_t>(problem_.part_schema.size()));
+        for (const ComposedNetwork::Subtask& subtask : network.subtasks) {
+            problem_.method_subtasks.push(*task_of_node_[subtask.node]);
+            problem_.method_positions.push({subtask.part, subtask.position});
+        }
+        problem_.method_subtasks.finish_row();
+        problem_.method_positions.finish_row();
+        problem_.method_ordering.add_row(network.ordering);
+    }
+
+    void write_choices() {
+        for (const Choice& choice : choices_) {
+            for (std::uint32_t one = 0; one < cases_[choice.node].size(); ++one) {
+                problem_.method_task.push_back(*task_of_node_[choice.node]);
+                problem_.method_part_begin.push_back(problem_.method_part_begin.back());
+                problem_.method_subtasks.push(choice.first_case + one);
+                problem_.method_subtasks.finish_row();
+                problem_.method_positions.push({0, 0});
+                problem_.method_positions.finish_row();
+                problem_.method_ordering.finish_row();
+            }
+        }
+    }
+
+    void write_methods_by_task() {
+        std::vector<std::vector<MethodId>> methods_of(problem_.compound_count());
+        for (MethodId method = 0; method < problem_.method_count(); ++method) {
+            methods_of[problem_.method_task[method] - problem_.action_count()].push_back(method);
+        }
+        for (const std::vector<MethodId>& methods : methods_of) {
+            problem_.compound_methods.add_row(methods);
+        }
+    }
+
+    struct Choice {
+        std::uint32_t action;
+        NodeId node;
+        ActionId first_case;
+    };
+
+    const Remains& remains_;
+    std::vector<std::vector<RemainingCase>> cases_;      // by action node; none: dead, or always true and artificial
+    std::vector<bool> is_void_;                          // by action node: an artificial one that is always possible
+    std::vector<NodeId> stands_for_;                     // by node: itself, or an equal one
+    std::map<std::vector<Conjunction>, NodeId> tests_;   // artificial actions by what they test
+    std::optional<Composition> composition_;
+    std::vector<std::optional<FactId>> number_of_fact_;  // by fact
+    std::vector<std::optional<TaskId>> task_of_node_;
+    std::vector<Choice> choices_;
+    GroundProblem problem_;
+};
+
+}  // namespace
+
+GroundProblem assemble(const Remains& remains) { return Assembly(remains).run(); }
+
+}  // namespace relax::grounding

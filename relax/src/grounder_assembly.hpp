@@ -1,0 +1,53 @@
+#ifndef RELAX_SRC_GROUNDER_ASSEMBLY_HPP
+#define RELAX_SRC_GROUNDER_ASSEMBLY_HPP
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "grounder_cases.hpp"
+#include "grounder_task_graph.hpp"
+#include "relax/ground_problem.hpp"
+#include "relax/grounder.hpp"
+
+namespace relax::grounding {
+
+// What pruning has left, ready to be written down.
+struct Remains {
+    const Knowledge& knowledge;
+    TaskGraph& graph;
+    const Cases& cases;
+    const std::vector<std::uint32_t>& fact_begin;  // by predicate
+    const std::vector<bool>& is_initially_true;    // by fact
+    const std::vector<bool>& is_literal_reached;
+    const GroundingOptions& options;
+};
+
+// Write the ground problem: literals that are always true vanish, and so do
+// facts that nothing reads, artificial actions without a condition, and cases
+// that another one contains.
+GroundProblem assemble(const Remains& remains);
+
+// Changes by condition: the unconditional ones come first.
+using Effects = std::map<Conjunction, Conjunction>;
+
+// A case of an action, with what remains of its precondition and its effects.
+struct RemainingCase {
+    CaseId number;
+    Conjunction condition;
+    Effects effects;
+};
+// At least one.
+std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action);
+
+// Facts of preconditions, and of conditions of effects on such facts.
+std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vector<RemainingCase>>& cases_of_actions);
+
+// Append the precondition and the effects of a case, with facts numbered by
+// `number_of_fact`.
+void write_action(const RemainingCase& one, const std::vector<std::optional<FactId>>& number_of_fact,
+                  GroundProblem& problem);
+
+}  // namespace relax::grounding
+
+#endif

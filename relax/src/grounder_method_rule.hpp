@@ -1,0 +1,15 @@
+#ifndef RELAX_SRC_GROUNDER_METHOD_RULE_HPP
+#define RELAX_SRC_GROUNDER_METHOD_RULE_HPP
+
+#include "grounder_demand.hpp"
+#include "grounder_join.hpp"
+
+namespace relax::grounding {
+
+// The rule whose patterns are the method's subtasks, in their order, and whose
+// tests are its constraints.
+Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t number);
+
+}  // namespace relax::grounding
+
+#endif

@@ -1,0 +1,70 @@
+#include <algorithm>
+
+#include "grounder_method_rule.hpp"
+#include "grounder_reachability.hpp"
+
+namespace relax::grounding {
+
+Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t number) {
+    const LiftedMethod& method = knowledge.problem.methods[number];
+    Rule rule;
+    rule.slot_count = method.slot_count;
+    rule.domains.assign(method.slot_count, nullptr);
+    for (std::uint32_t slot = 0; slot < method.parameters.size(); ++slot) {
+        rule.domains[slot] = &demand.method_slots[number][slot];
+    }
+    for (const LiftedSubtask& subtask : method.subtasks) {
+        rule.patterns.push_back({knowledge.task_relation(subtask.task), subtask.arguments});
+    }
+    std::vector<Formula> constraints;
+    split_conjunction(negation_normal_form(method.constraints), constraints);
+    for (Formula& constraint : constraints) {
+        if (constraint.kind == FormulaKind::Atom) {
+            rule.patterns.push_back({constraint.symbol, std::move(constraint.terms)});
+        } else {
+            rule.tests.push_back(std::move(constraint));
+        }
+    }
+    // Parameters that neither the task nor a constraint mentions are bound by the
+    // subtasks, or do not matter.
+    for (const Formula& test : rule.tests) {
+        free_slots(test, rule.head);
+    }
+    for (const Term term : method.task_arguments) {
+        if (term >= 0) {
+            rule.head.push_back(static_cast<std::uint32_t>(term));
+        }
+    }
+    std::ranges::sort(rule.head);
+    const auto repeated = std::ranges::unique(rule.head);
+    rule.head.erase(repeated.begin(), repeated.end());
+    return rule;
+}
+
+void reach_tasks(Knowledge& knowledge, const Demand& demand, Limits& limits) {
+    std::vector<std::uint32_t> method_of_rule;
+    std::vector<ObjectId> arguments;
+    const auto emit = [&](std::uint32_t rule, const Bindings& bindings) {
+        const LiftedMethod& method = knowledge.problem.methods[method_of_rule[rule]];
+        arguments.clear();
+        for (const Term term : method.task_arguments) {
+            arguments.push_back(object_of(term, bindings));
+        }
+        knowledge.relations[knowledge.task_relation(method.task)].add(arguments);
+    };
+    std::vector<bool> grows(knowledge.problem.predicate_count + knowledge.problem.actions.size(), false);
+    grows.resize(knowledge.relations.size(), true);
+    JoinEngine engine(knowledge, std::move(grows), limits, emit);
+    for (std::uint32_t method = 0; method < knowledge.problem.methods.size(); ++method) {
+        if (demand.is_method_demanded[method]) {
+            const LiftedMethod& lifted = knowledge.problem.methods[method];
+            method_of_rule.push_back(method);
+            Rule rule = method_rule(knowledge, demand, method);
+            rule.result = Pattern{knowledge.task_relation(lifted.task), lifted.task_arguments};
+            engine.add_rule(std::move(rule));
+        }
+    }
+    engine.run();
+}
+
+}  // namespace relax::grounding

@@ -1,0 +1,124 @@
+#include "grounder_relation.hpp"
+
+#include <algorithm>
+
+namespace relax::grounding {
+
+namespace {
+
+std::uint64_t hash_of(std::span<const ObjectId> values) {
+    std::uint64_t hash = values.size();
+    for (const ObjectId value : values) {
+        hash = combine(hash, value);
+    }
+    return hash;
+}
+
+}  // namespace
+
+std::optional<TupleId> Relation::find(std::span<const ObjectId> tuple) const {
+    return table_.find(hash_of(tuple), [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); });
+}
+
+TupleId Relation::add(std::span<const ObjectId> tuple) {
+    const std::uint64_t hash = hash_of(tuple);
+    const auto equal = [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); };
+    if (const auto known = table_.find(hash, equal)) {
+        return *known;
+    }
+    values_.insert(values_.end(), tuple.begin(), tuple.end());
+    table_.add(hash, size_, [this](TupleId other) { return hash_of((*this)[other]); });
+    return size_++;
+}
+
+IndexId Relation::index_on(const std::vector<std::uint32_t>& positions) {
+    const auto known = std::ranges::find(indexes_, positions, &Index::positions);
+    const auto id = static_cast<IndexId>(known - indexes_.begin());
+    if (known == indexes_.end()) {
+        Index index;
+        index.positions = positions;
+        for (TupleId tuple = 0; tuple < visible_; ++tuple) {
+            insert(index, tuple);
+        }
+        indexes_.push_back(std::move(index));
+    }
+    return id;
+}
+
+void Relation::show_next() {
+    for (Index& index : indexes_) {
+        insert(index, visible_);
+    }
+    ++visible_;
+}
+
+void Relation::show_all() {
+    while (visible_ < size_) {
+        show_next();
+    }
+}
+
+void Relation::insert(Index& index, TupleId tuple) const {
+    std::vector<ObjectId> key;
+    const auto read_key = [&](TupleId of) {
+        key.clear();
+        for (const std::uint32_t position : index.positions) {
+            key.push_back((*this)[of][position]);
+        }
+    };
+    read_key(tuple);
+    if (const auto known = find_key(index, key)) {
+        index.older.push_back(index.newest[*known]);
+        index.newest[*known] = tuple;
+        return;
+    }
+    const auto fresh = static_cast<std::uint32_t>(index.newest.size());
+    index.older.push_back(tuple);
+    index.newest.push_back(tuple);
+    index.table.add(hash_of(key), fresh, [&](std::uint32_t other) {
+        read_key(index.newest[other]);
+        return hash_of(key);
+    });
+}
+
+std::optional<std::uint32_t> Relation::find_key(const Index& index, std::span<const ObjectId> key) const {
+    return index.table.find(hash_of(key), [&](std::uint32_t other) {
+        const std::span<const ObjectId> tuple = (*this)[index.newest[other]];
+        for (std::size_t at = 0; at < key.size(); ++at) {
+            if (tuple[index.positions[at]] != key[at]) {
+                return false;
+            }
+        }
+        return true;
+    });
+}
+
+std::optional<TupleId> Relation::first(IndexId index, std::span<const ObjectId> key) const {
+    const auto found = find_key(indexes_[index], key);
+    return found ? std::optional(indexes_[index].newest[*found]) : std::nullopt;
+}
+
+std::optional<TupleId> Relation::next(IndexId index, TupleId tuple) const {
+    const TupleId older = indexes_[index].older[tuple];
+    return older == tuple ? std::nullopt : std::optional(older);
+}
+
+std::size_t Relation::distinct_values(std::uint32_t position) {
+    if (distinct_.empty() || counted_ != size_) {
+        counted_ = size_;
+        distinct_.clear();
+        for (std::size_t column = 0; column < arity_; ++column) {
+            std::vector<ObjectId> values;
+            values.reserve(size_);
+            for (TupleId tuple = 0; tuple < size_; ++tuple) {
+                values.push_back((*this)[tuple][column]);
+            }
+            std::ranges::sort(values);
+            const auto repeated = std::ranges::unique(values);
+            distinct_.push_back(values.size() - repeated.size());
+        }
+    }
+    return distinct_[position];
+}
+
+}  // namespace relax::grounding
