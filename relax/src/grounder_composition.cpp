@@ -14,21 +14,27 @@ constexpr std::uint32_t kMostParts = 64;
 
 Ordering transitive_closure(const LiftedMethod& method) {
     const std::size_t count = method.subtasks.size();
-    std::vector<std::vector<bool>> before(count, std::vector<bool>(count, false));
+    const std::size_t words = (count + 63) / 64;
+    std::vector<std::uint64_t> after(count * words, 0);  // a row of bits for every subtask
+    const auto is_after = [&](std::size_t earlier, std::size_t later) {
+        return (after[earlier * words + later / 64] >> (later % 64) & 1U) != 0;
+    };
     for (const auto& [earlier, later] : method.ordering) {
-        before[earlier][later] = true;
+        after[earlier * words + later / 64] |= std::uint64_t{1} << (later % 64);
     }
     for (std::size_t between = 0; between < count; ++between) {
         for (std::size_t earlier = 0; earlier < count; ++earlier) {
-            for (std::size_t later = 0; before[earlier][between] && later < count; ++later) {
-                before[earlier][later] = before[earlier][later] || before[between][later];
+            if (is_after(earlier, between)) {
+                for (std::size_t word = 0; word < words; ++word) {
+                    after[earlier * words + word] |= after[between * words + word];
+                }
             }
         }
     }
     Ordering closure;
     for (std::uint32_t earlier = 0; earlier < count; ++earlier) {
         for (std::uint32_t later = 0; later < count; ++later) {
-            if (before[earlier][later]) {
+            if (is_after(earlier, later)) {
                 closure.emplace_back(earlier, later);
             }
         }

@@ -93,14 +93,16 @@ private:
         add_condition(std::move(rule), condition, Head(number, dependent));
     }
 
-    // Atoms become patterns, what is decided for good tests, everything else
-    // waits.
+    // Atoms with variables become patterns, what is decided for good tests,
+    // everything else waits. (A goal may have hundreds of atoms without
+    // variables: each would trigger the joins of all others.)
     void add_condition(Rule rule, const Formula& condition, Head head) {
         std::vector<Formula> conjuncts;
         split_conjunction(negation_normal_form(condition), conjuncts);
         for (Formula& conjunct : conjuncts) {
             const std::size_t awaited = head.awaited.size();
-            if (conjunct.kind == FormulaKind::Atom) {
+            const auto is_variable = [](Term term) { return term >= 0; };
+            if (conjunct.kind == FormulaKind::Atom && std::ranges::any_of(conjunct.terms, is_variable)) {
                 rule.patterns.push_back({conjunct.symbol, conjunct.terms});
                 continue;
             }

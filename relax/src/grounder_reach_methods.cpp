@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "grounder_method_rule.hpp"
+#include "grounder_join.hpp"
 #include "grounder_reachability.hpp"
 
 namespace relax::grounding {
@@ -41,30 +42,51 @@ Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t
     return rule;
 }
 
+namespace {
+
+Rule accomplishing_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t number) {
+    const LiftedMethod& method = knowledge.problem.methods[number];
+    Rule rule = method_rule(knowledge, demand, number);
+    rule.result = Pattern{knowledge.task_relation(method.task), method.task_arguments};
+    return rule;
+}
+
+}  // namespace
+
 void reach_tasks(Knowledge& knowledge, const Demand& demand, Limits& limits) {
+    const LiftedProblem& problem = knowledge.problem;
     std::vector<std::uint32_t> method_of_rule;
     std::vector<ObjectId> arguments;
     const auto emit = [&](std::uint32_t rule, const Bindings& bindings) {
-        const LiftedMethod& method = knowledge.problem.methods[method_of_rule[rule]];
+        const LiftedMethod& method = problem.methods[method_of_rule[rule]];
         arguments.clear();
         for (const Term term : method.task_arguments) {
             arguments.push_back(object_of(term, bindings));
         }
         knowledge.relations[knowledge.task_relation(method.task)].add(arguments);
     };
-    std::vector<bool> grows(knowledge.problem.predicate_count + knowledge.problem.actions.size(), false);
+    std::vector<bool> grows(problem.predicate_count + problem.actions.size(), false);
     grows.resize(knowledge.relations.size(), true);
     JoinEngine engine(knowledge, std::move(grows), limits, emit);
-    for (std::uint32_t method = 0; method < knowledge.problem.methods.size(); ++method) {
-        if (demand.is_method_demanded[method]) {
-            const LiftedMethod& lifted = knowledge.problem.methods[method];
+    std::vector<std::uint32_t> initial_methods;
+    for (std::uint32_t method = 0; method < problem.methods.size(); ++method) {
+        if (demand.is_method_demanded[method] && problem.methods[method].task == problem.initial_task) {
+            initial_methods.push_back(method);
+        } else if (demand.is_method_demanded[method]) {
             method_of_rule.push_back(method);
-            Rule rule = method_rule(knowledge, demand, method);
-            rule.result = Pattern{knowledge.task_relation(lifted.task), lifted.task_arguments};
-            engine.add_rule(std::move(rule));
+            engine.add_rule(accomplishing_rule(knowledge, demand, method));
         }
     }
     engine.run();
+    // No method contains the initial task, and its network may be long: one look in the end is enough.
+    const std::vector<bool> nothing_grows(knowledge.relations.size(), false);
+    Joiner joiner(knowledge, limits, emit);
+    for (const std::uint32_t method : initial_methods) {
+        const auto number = static_cast<std::uint32_t>(method_of_rule.size());
+        method_of_rule.push_back(method);
+        const Rule rule = accomplishing_rule(knowledge, demand, method);
+        joiner.run(rule, plan_join(knowledge, nothing_grows, rule, number, std::nullopt), std::nullopt);
+    }
 }
 
 }  // namespace relax::grounding

@@ -39,6 +39,9 @@ from statehtn.model import (
 )
 
 KINDS = ("t0", "t1", "t2", "t3")
+CONSTANTS = ("c0", "t1")  # some have the name of a type, a predicate or a task
+OBJECTS = ("o0", "p0", "task0")
+LABELS = ("s0", "task0", "t0", "x|y")
 NUMBERS = st.one_of(
     st.integers(0, 10**6).map(Fraction),
     st.decimals(0, 1000, places=4).map(Fraction),
@@ -163,9 +166,10 @@ def effects(draw: st.DrawFn, names: Names) -> list[Effect]:
 @st.composite
 def networks(draw: st.DrawFn, names: Names) -> TaskNetwork:
     found = [task for task in draw(st.lists(arguments(names, names.tasks), max_size=4)) if task]
-    subtasks = tuple(Subtask(f"s{index}", task[0], task[1:]) for index, task in enumerate(found))
+    subtasks = tuple(Subtask(label, task[0], task[1:]) for label, task in zip(LABELS, found, strict=False))
     pairs = [(i, j) for i in range(len(found)) for j in range(i + 1, len(found))]
-    ordering = draw(st.lists(st.sampled_from(pairs), unique=True)) if pairs else []
+    chain = [(i, i + 1) for i in range(len(found) - 1)]
+    ordering = draw(st.one_of(st.just(chain), st.lists(st.sampled_from(pairs), unique=True))) if pairs else []
     constraints = draw(st.one_of(st.just(TRUE), formulas(names, 2, constraint=True)))
     return TaskNetwork(subtasks, tuple(ordering), constraints)
 
@@ -174,7 +178,7 @@ def networks(draw: st.DrawFn, names: Names) -> TaskNetwork:
 def domains(draw: st.DrawFn) -> tuple[Domain, Names]:
     above = [("object",), (), ("t0",), ("t0", "t1")]
     types = TypeHierarchy({kind: draw(st.sampled_from(above[: index + 1])) for index, kind in enumerate(KINDS)})
-    constants = {f"c{index}": kind for index, kind in enumerate(draw(st.lists(st.sampled_from(KINDS), max_size=2)))}
+    constants = dict(zip(CONSTANTS, draw(st.lists(st.sampled_from(KINDS), max_size=2)), strict=False))
     predicates, functions, compound = draw(signatures("p")), draw(signatures("f")), draw(signatures("task"))
     primitive = draw(signatures("act", 2))
     names = Names(types, constants, predicates, functions, {**compound, **primitive})
@@ -197,7 +201,7 @@ def domains(draw: st.DrawFn) -> tuple[Domain, Names]:
 @st.composite
 def problems(draw: st.DrawFn) -> Problem:
     domain, names = draw(domains())
-    objects = {f"o{index}": kind for index, kind in enumerate(draw(st.lists(st.sampled_from(KINDS), max_size=3)))}
+    objects = dict(zip(OBJECTS, draw(st.lists(st.sampled_from(KINDS), max_size=3)), strict=False))
     ground = Names(names.types, {**names.objects, **objects}, names.predicates, names.functions, names.tasks)
     bound = draw(parameters("h", 2))
     facts = frozenset(fact for fact in draw(st.lists(arguments(ground, ground.predicates), max_size=5)) if fact)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import time
+from contextlib import suppress
 
 import pytest
 
@@ -216,7 +218,7 @@ def test_a_wider_and_an_overlapping_type_are_fine() -> None:
 
 
 def test_empty_goal_and_missing_sections() -> None:
-    problem = read("", "(define (problem p) (:goal ()) (:htn-ti :subtasks ()))")
+    problem = read("", "(define (problem p) (:goal ()) (:htn :subtasks ()))")
     assert problem.goal == TRUE
     assert problem.network == TaskNetwork()
     assert read("", "(define (problem p) (:goal) (:htn :subtasks ()))").goal == TRUE
@@ -242,6 +244,13 @@ def test_sloppy_input_warns_and_strict_refuses(sections: str, problem: str, mess
     with pytest.raises(InputError) as error:
         read_hddl_text(domain, problem, strict=True)
     assert str(error.value).startswith(message)
+
+
+@pytest.mark.parametrize("problem", [EMPTY_PROBLEM, ")"])
+def test_the_collector_of_cycles_is_on_again_afterwards(problem: str) -> None:
+    with suppress(InputError):
+        read("", problem)
+    assert gc.isenabled()
 
 
 @pytest.mark.parametrize("kind", ["facts", "values"])

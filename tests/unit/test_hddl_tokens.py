@@ -8,7 +8,8 @@ import pytest
 
 from statehtn.errors import InputError, Place
 from statehtn.hddl import read_hddl
-from statehtn.hddl.tokens import MAX_NESTING, Source, read_text
+from statehtn.hddl.expressions import CHECK_EVERY, parse_group
+from statehtn.hddl.tokens import MAX_MESSAGE, MAX_NESTING, Source, read_text
 from statehtn.limits import LimitReached, Limits
 
 LIMITS = Limits()
@@ -139,3 +140,20 @@ def test_a_byte_order_mark_is_skipped(tmp_path: Path) -> None:
 def test_limits_are_checked() -> None:
     with pytest.raises(LimitReached):
         Source("(define (domain d))", "d.hddl", Limits(deadline=0.0))
+
+
+def test_limits_are_checked_inside_a_long_section() -> None:
+    read = source(f"(define (domain d) (:types {'t ' * (CHECK_EVERY + 1)}))")
+    assert len(parse_group(read, 6).items) == CHECK_EVERY + 2
+    read.limits = Limits(deadline=0.0)
+    with pytest.raises(LimitReached):
+        parse_group(read, 6)
+
+
+@pytest.mark.parametrize("text", ["9" * 5000, "a " * 5000])
+def test_messages_leave_out_what_is_too_long(text: str) -> None:
+    """A file may be one long word; found by damaging files at random."""
+    message = str(source("(define (domain d))").error(f"expected a fact, found '{text}'", 0))
+    assert message.startswith("d.hddl:1:1: expected a fact, found '")
+    assert "..." in message
+    assert len(message) < MAX_MESSAGE + 100

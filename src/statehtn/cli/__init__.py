@@ -1,4 +1,4 @@
-"""The command line: `statehtn plan` and `statehtn validate`."""
+"""The command line: `statehtn plan`, `statehtn validate` and `statehtn compare`."""
 
 from statehtn.cli.program import main
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES
 from statehtn.errors import UsageError
+from statehtn.experiments.suites import SUITES
 from statehtn.planner import DEFAULT_WEIGHT, SOLVERS
 from statehtn.risk import Attitude
 
@@ -19,6 +20,16 @@ exit codes:
   0 plan found    10 proven unsolvable    20 time limit      30 input error             130 interrupted
   2 usage         12 search exhausted     21 memory limit    31 unsupported feature
 """
+
+COMPARE_EPILOG = """statuses of a run, besides those of 'statehtn plan':
+  input-error, unsupported   its input is wrong, or asks for something that the planner does not do
+  error                      it crashed, or its plan did not pass validation
+  killed                     it overran its time limit and did not end of itself
+
+exit codes: 0 every run is recorded, 2 usage, 30 no such folder or no problem, 74 cannot write, 130 interrupted
+"""
+COMPARE_TIME_LIMIT = 60.0
+COMPARE_MEMORY_LIMIT = 4000.0
 
 
 class _Parser(argparse.ArgumentParser):
@@ -48,9 +59,10 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     """
     parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate|compare")
     _add_plan(commands)
     _add_validate(commands)
+    _add_compare(commands)
     return parser.parse_args(arguments)
 
 
@@ -105,6 +117,60 @@ def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
     )
     _add_inputs(parser)
     parser.add_argument("plan", metavar="PLAN", help="plan file")
+
+
+def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "compare",
+        help="run a suite of problems with several settings, and record every run",
+        description="Run every problem of a suite with every combination of the settings, each run in a process of its "
+        "own. Options that take several values may be repeated, too.",
+        epilog=COMPARE_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+
+    def several(name: str, **options: Any) -> None:
+        parser.add_argument(name, action="extend", nargs="+", **options)
+
+    parser.add_argument("--suite", choices=list(SUITES), required=True)
+    parser.add_argument("--root", metavar="DIR", help="folder of the benchmarks (suite ipc)")
+    several("--domain", metavar="GLOB", help="only domains of this name, such as '*Satellite*'")
+    several("--attitude", choices=[str(attitude) for attitude in Attitude], help="default: the suite's own")
+    several("--alpha", type=float, metavar="A", help="for the averse and the seeking")
+    several("--solver", choices=list(SOLVERS), help="default: state")
+    several("--heuristic", choices=list(HEURISTICS), help="default: lmcut")
+    several("--search", choices=list(SEARCHES), help="default: astar")
+    parser.add_argument("--repeat", type=_count, default=1, metavar="N", help="do everything so many times")
+    parser.add_argument(
+        "--time-limit",
+        type=float,
+        default=COMPARE_TIME_LIMIT,
+        metavar="S",
+        help=f"seconds for a run, reading included; default: {COMPARE_TIME_LIMIT:g}",
+    )
+    parser.add_argument(
+        "--memory-limit",
+        type=float,
+        default=COMPARE_MEMORY_LIMIT,
+        metavar="MB",
+        help=f"of a run's process, in 10^6 bytes; default: {COMPARE_MEMORY_LIMIT:g}",
+    )
+    parser.add_argument("--jobs", type=_count, default=1, metavar="N", help="runs at the same time; default: 1")
+    parser.add_argument(
+        "--output",
+        metavar="FILE.csv",
+        help="append a row for each run as it ends, and all about it to FILE.jsonl; what is there already is not run "
+        "again. Without it rows go to standard output",
+    )
+    parser.add_argument("--quiet", action="store_true", help="show no progress and no summary")
+
+
+def _count(text: str) -> int:
+    """Read a number of things, at least one."""
+    if text.isdecimal() and int(text) > 0:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"expected a whole number of at least 1, found '{text}'")
 
 
 def _add_inputs(parser: argparse.ArgumentParser) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import signal
 import sys
@@ -25,11 +26,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with _terminate_as_interrupt(), _warnings_as_lines():
         try:
             options = parse_arguments(sys.argv[1:] if arguments is None else arguments)
-            return int(run_plan(options) if options.command == "plan" else run_validate(options))
+            return int(_run(options))
         except SystemExit as request:  # --help and --version
             return request.code if isinstance(request.code, int) else ExitCode.SUCCESS
         except BaseException as error:
             return int(_explain(error))
+
+
+def _run(options: argparse.Namespace) -> ExitCode:
+    """Run the command that was asked for."""
+    match options.command:
+        case "plan":
+            return run_plan(options)
+        case "validate":
+            return run_validate(options)
+        case _:
+            from statehtn.cli.compare_command import run_compare  # what it needs would slow down the others
+
+            return run_compare(options)
 
 
 def _explain(error: BaseException) -> ExitCode:

@@ -6,6 +6,7 @@ import io
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from rich import box
 from rich.console import Console
@@ -16,6 +17,9 @@ from statehtn.model.costs import CostDistribution
 from statehtn.model.status import Status
 from statehtn.result import Result
 from statehtn.validate import Validation
+
+if TYPE_CHECKING:
+    from statehtn.experiments.summary import Summary
 
 PIPE_WIDTH = 100_000  # in a pipe nothing is wrapped
 STYLES = {Status.OPTIMAL: "bold green", Status.SOLVED: "bold yellow"}
@@ -60,6 +64,35 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
     if validation.valid:
         rows.append(("expected cost", number(validation.expected_cost)))
     return _render([table, _summary(rows, "bold green" if validation.valid else "bold red")])
+
+
+def readable_summaries(summaries: Sequence[Summary], total: Summary) -> str:
+    """Return what has come of a comparison's runs by domain, and by settings where they differ."""
+    several = len({summary.settings for summary in summaries}) > 1
+    headings = ("runs", "grounded", "solved", "optimal", "no plan", "limits", "errors")
+    times = ("prep. s", "search s", "total s")
+    table = _table(
+        ("domain", "left"),
+        *([("settings", "left")] if several else []),
+        *((heading, "right") for heading in (*headings, *times)),
+    )
+    table.padding = (0, 1, 0, 0)
+    for summary in (*summaries, total):
+        if summary is total:
+            table.add_section()
+        counts = (
+            *(summary.runs, summary.grounded, summary.solved, summary.optimal),
+            *(summary.no_plan, summary.limits, summary.errors),
+        )
+        seconds = (summary.preparation, summary.search, summary.total)
+        table.add_row(
+            summary.domain,
+            *([summary.settings] if several else []),
+            *(str(count) for count in counts),
+            *("" if value is None else f"{value:.3f}" for value in seconds),
+        )
+    explanation = "prep.: median of reading and grounding; search: median over the solved; total: sum over all runs"
+    return f"{_render([table], wrap=False)}\n\n{explanation}"
 
 
 def _steps_table(result: Result) -> Table:
@@ -153,14 +186,14 @@ def _summary(rows: Iterable[tuple[str, str]], first_style: str) -> Table:
     return table
 
 
-def _render(tables: Iterable[Table]) -> str:
-    """Render for standard output: coloured and wrapped on a terminal, plain and of any width elsewhere."""
+def _render(tables: Iterable[Table], *, wrap: bool = True) -> str:
+    """Render for standard output: coloured and, unless told not to, wrapped on a terminal; plain and wide elsewhere."""
     terminal = sys.stdout.isatty()
     console = Console(
         file=io.StringIO(),
         force_terminal=terminal,
         color_system="auto" if terminal else None,
-        width=shutil.get_terminal_size().columns if terminal else PIPE_WIDTH,
+        width=shutil.get_terminal_size().columns if terminal and wrap else PIPE_WIDTH,
         markup=False,
         highlight=False,
         emoji=False,

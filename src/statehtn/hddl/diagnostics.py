@@ -7,11 +7,15 @@ from collections.abc import Iterable
 
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.expressions import Node
-from statehtn.hddl.tokens import Source, shortened
+from statehtn.hddl.tokens import Source, concise, shortened
 
 
 class HddlWarning(UserWarning):
     """A file is sloppy, but its meaning is clear; in strict mode this is an `InputError`."""
+
+
+MAX_WARNINGS = 100
+"""How many warnings are worked out; a large file with the same slip in every line would take minutes for more."""
 
 
 class Diagnostics:
@@ -20,6 +24,7 @@ class Diagnostics:
     def __init__(self, strict: bool) -> None:
         self.strict = strict
         self.found: list[str] = []
+        self.omitted = 0
 
     def warn(self, message: str, source: Source, index: int) -> None:
         """Note a warning about a token.
@@ -27,6 +32,9 @@ class Diagnostics:
         Raises:
             InputError: in strict mode.
         """
+        if len(self.found) == MAX_WARNINGS:
+            self.omitted += 1
+            return
         error = source.error(message, index)
         if self.strict:
             raise error
@@ -36,6 +44,8 @@ class Diagnostics:
         """Hand the warnings to Python, as if they came from the caller `stacklevel` frames up."""
         for message in self.found:
             warnings.warn(HddlWarning(message), stacklevel=stacklevel + 1)
+        if self.omitted:
+            warnings.warn(HddlWarning(f"{self.omitted} more warnings are left out"), stacklevel=stacklevel + 1)
 
 
 class Reporter:
@@ -51,7 +61,7 @@ class Reporter:
 
     def unsupported(self, message: str, at: Node) -> UnsupportedError:
         """Return the error for something that is HDDL, or PDDL, but not done here."""
-        return UnsupportedError(message, self.source.place(at.index))
+        return UnsupportedError(concise(message), self.source.place(at.index))
 
     def warn(self, message: str, at: Node) -> None:
         """Note a warning; an error in strict mode."""

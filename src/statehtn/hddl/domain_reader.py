@@ -11,12 +11,12 @@ from statehtn.hddl.effect_reader import EffectReader
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
 from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.network_reader import NETWORK_KEYWORDS, read_network
-from statehtn.hddl.sections import Fields, read_header, section_name
+from statehtn.hddl.sections import Fields, is_empty, read_header, section_name
 from statehtn.hddl.tokens import Source
-from statehtn.hddl.typed_lists import read_objects, read_parameters, read_types
+from statehtn.hddl.typed_lists import read_objects, read_parameters, read_types, type_after_dash
 from statehtn.hddl.vocabulary import Vocabulary, new_name, unreserved
 from statehtn.limits import Limits
-from statehtn.model import TRUE, Action, Domain, Formula, Method, Parameter, Signature, TypeHierarchy
+from statehtn.model import TRUE, Action, Domain, Formula, Method, Parameter, Signature
 
 SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", ":task", ":action", ":method")
 UNSUPPORTED = {
@@ -25,19 +25,24 @@ UNSUPPORTED = {
     ":constraints": "trajectory constraints are not supported",
     ":process": "processes are not supported",
     ":event": "events are not supported",
+    ":include": "including other files is not supported",
+}
+UNSUPPORTED_REQUIREMENTS = {
+    ":method-preconditions-are-immediately-before": "method preconditions that bind the first subtask",
+    ":typeof-predicate": "facts about the types of objects",
 }
 ACTION_KEYWORDS = (":parameters", ":precondition", ":effect")
-METHOD_KEYWORDS = (":parameters", ":task", ":precondition", *NETWORK_KEYWORDS)
+METHOD_KEYWORDS = (":parameters", ":task", ":precondition", ":effect", *NETWORK_KEYWORDS)
 
 
-def read_domain(source: Source, diagnostics: Diagnostics, limits: Limits) -> tuple[Domain, Vocabulary]:
-    """Return the domain of a file, and its declarations for reading a problem.
+def read_domain(source: Source, vocabulary: Vocabulary, diagnostics: Diagnostics, limits: Limits) -> Domain:
+    """Return the domain of a file, and add its declarations to a vocabulary, for reading a problem.
 
     Raises:
         InputError: with the place of the mistake.
         UnsupportedError: it uses a part of PDDL that is not supported.
     """
-    return _DomainReader(source, Reporter(source, diagnostics), limits).read()
+    return _DomainReader(source, Reporter(source, diagnostics), limits, vocabulary).read()
 
 
 @dataclass(slots=True)
@@ -45,17 +50,16 @@ class _DomainReader:
     source: Source
     reporter: Reporter
     limits: Limits
-    vocabulary: Vocabulary = field(default_factory=Vocabulary)
+    vocabulary: Vocabulary
     sections: dict[str, list[tuple[int, int]]] = field(default_factory=lambda: {name: [] for name in SECTIONS})
 
-    def read(self) -> tuple[Domain, Vocabulary]:
+    def read(self) -> Domain:
         name = read_header(self.source, "domain", self.reporter)
         self._sort_sections()
         vocabulary = self.vocabulary
-        vocabulary.types = TypeHierarchy(self._types())
-        constants: dict[str, str] = {}
-        for group in self._groups(":constants"):
-            constants |= read_objects(group.items[1:], vocabulary, self.reporter)
+        vocabulary.declare_types(self._types())
+        for start, end in self.sections[":constants"]:
+            read_objects(start, end, vocabulary, vocabulary.constants, self.reporter)
         for group in self._groups(":predicates"):
             self._predicates(group)
         for group in self._groups(":functions"):
@@ -63,17 +67,16 @@ class _DomainReader:
         for group in self._groups(":task"):
             self._task(group)
         actions = [self._head(group) for group in self._groups(":action")]
-        domain = Domain(
+        return Domain(
             name,
             vocabulary.types,
-            constants,
+            vocabulary.constants,
             vocabulary.predicates,
             vocabulary.functions,
             vocabulary.tasks,
             {signature.name: self._action(signature, fields) for signature, fields in actions},
             self._methods(),
         )
-        return domain, vocabulary
 
     def _sort_sections(self) -> None:
         for start, end in self.source.sections[1:]:
@@ -83,9 +86,19 @@ class _DomainReader:
             if name not in self.sections:
                 raise self.source.error(unknown("section", name, SECTIONS), start)
             self.sections[name].append((start, end))
+            if name == ":requirements":
+                self._check_requirements(start, end)
         for name in (":types", ":constants", ":predicates", ":functions"):
             for start, _ in self.sections[name][1:]:
                 self.reporter.warn(f"a second section '{name}'; it is added to the first", Word(name, start))
+
+    def _check_requirements(self, start: int, end: int) -> None:
+        """Refuse those that would change what the rest of the file means; the others are not insisted on."""
+        for index in range(start + 2, end - 1):
+            requirement = self.source.tokens[index]
+            if requirement in UNSUPPORTED_REQUIREMENTS:
+                what = UNSUPPORTED_REQUIREMENTS[requirement]
+                raise self.reporter.unsupported(f"{what} ({requirement}) are not supported", Word(requirement, index))
 
     def _groups(self, name: str) -> Iterable[Group]:
         for start, _ in self.sections[name]:
@@ -104,8 +117,7 @@ class _DomainReader:
             if signature.name == "=":
                 self.reporter.warn("'=' is built in and need not be declared", node)
                 continue
-            self._check_new(signature.name, "predicate", self.vocabulary.predicates, node)
-            self.vocabulary.predicates[signature.name] = signature
+            self._declare(signature, "predicate", self.vocabulary.predicates, node)
 
     def _functions(self, section: Group) -> None:
         """Read `(slow ?a ?b) - number`; the type may be left out, and `(total-cost)` is known anyway."""
@@ -114,17 +126,19 @@ class _DomainReader:
         while index < len(nodes):
             node = nodes[index]
             index += 1
-            if isinstance(node, Word) and node.text == "-" and index > 1:
-                kind = nodes[index] if index < len(nodes) else node
+            if isinstance(node, Word) and node.text.startswith("-") and index > 1:
+                if node.text == "-":
+                    kind = nodes[index] if index < len(nodes) else node
+                    index += 1
+                else:
+                    kind = type_after_dash(node, self.reporter)
                 if not isinstance(kind, Word) or kind.text != "number":
                     raise self.reporter.unsupported(f"functions have the type 'number', found {describe(kind)}", kind)
-                index += 1
                 continue
             signature = self._signature(node, "function")
             if signature.name == TOTAL_COST:
                 continue
-            self._check_new(signature.name, "function", self.vocabulary.functions, node)
-            self.vocabulary.functions[signature.name] = signature
+            self._declare(signature, "function", self.vocabulary.functions, node)
 
     def _signature(self, node: Node, kind: str) -> Signature:
         if isinstance(node, Word) or not node.items:
@@ -133,25 +147,37 @@ class _DomainReader:
         return Signature(name, read_parameters(node.items[1:], self.vocabulary, self.reporter, distinct=False))
 
     def _task(self, section: Group) -> None:
-        signature, _ = self._head(section, (":parameters",))
+        signature, fields = self._head(section)
+        for keyword in (":precondition", ":effect"):
+            node = fields.get(keyword)
+            if node is not None and not is_empty(node):
+                self.reporter.warn(f"'{keyword}' of a compound task means nothing in HTN planning and is ignored", node)
         self.vocabulary.tasks[signature.name] = signature
 
-    def _head(self, section: Group, keywords: tuple[str, ...] = ACTION_KEYWORDS) -> tuple[Signature, Fields]:
+    def _head(self, section: Group) -> tuple[Signature, Fields]:
         """Declare an action or a task; actions are read only when all of them are declared."""
         kind = section.head[1:]
         name_node = section.items[1] if len(section.items) > 1 else None
         name = unreserved(new_name(name_node, kind, section, self.reporter), kind, section, self.reporter)
         for other_kind, known in (("task", self.vocabulary.tasks), ("action", self.vocabulary.actions)):
             self._check_new(name, other_kind, known, name_node or section)
-        fields = Fields(section, section.items[2:], keywords, self.reporter)
+        fields = Fields(section, section.items[2:], ACTION_KEYWORDS, self.reporter)
         signature = Signature(name, read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter))
         if kind == "action":
             self.vocabulary.actions[name] = signature
         return signature, fields
 
+    def _declare(self, signature: Signature, kind: str, known: dict[str, Signature], node: Node) -> None:
+        """Add a declaration; the same one again changes nothing and is only a warning."""
+        if known.get(signature.name) == signature:
+            self.reporter.warn(f"{kind} '{signature.name}' is declared again", node)
+        else:
+            self._check_new(signature.name, kind, known, node)
+            known[signature.name] = signature
+
     def _check_new(self, name: str, kind: str, known: Iterable[str], at: Node) -> None:
         if name in known:
-            raise self.reporter.error(f"there is a {kind} '{name}' already", at)
+            raise self.reporter.error(f"there is {'an' if kind == 'action' else 'a'} {kind} '{name}' already", at)
 
     def _action(self, signature: Signature, fields: Fields) -> Action:
         scope = _scope(signature.parameters)
@@ -176,6 +202,9 @@ class _DomainReader:
         parameters = read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter)
         scope = _scope(parameters)
         task, arguments = self._decomposed(name, fields, scope)
+        effect = fields.get(":effect")
+        if effect is not None and not is_empty(effect):
+            raise self.reporter.unsupported("effects of methods are not supported; give them to an action", effect)
         network = read_network(fields, scope, self.vocabulary, self.reporter)
         return Method(name, parameters, task, arguments, network, self._precondition(fields, scope))
 

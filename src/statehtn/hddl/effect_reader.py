@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import count
 
 from statehtn.hddl.cost_reader import Branches, CostReader
 from statehtn.hddl.diagnostics import Reporter, unknown
@@ -79,14 +81,11 @@ class EffectReader:
         declared = node.items[1] if len(node.items) == 3 else None
         if not isinstance(declared, Group):
             raise self.reporter.error("expected '(forall (<variables>) <effect>)'", node)
-        added = read_parameters(declared.items, self.vocabulary, self.reporter)
-        for parameter in added:
-            if parameter.name in scope:  # one name for two variables, perhaps in one condition
-                raise self.reporter.error(
-                    f"variable '{parameter.name}' is declared already; give this one another name", declared
-                )
+        names = _fresh_names(declared, node, scope)
+        added = read_parameters(_renamed(declared.items, names), self.vocabulary, self.reporter)
+        (body,) = _renamed(node.items[2:], names)
         inner_scope = {**scope, **{parameter.name: parameter.types for parameter in added}}
-        self.read(node.items[2], inner_scope, condition, (*parameters, *added))
+        self.read(body, inner_scope, condition, (*parameters, *added))
 
     def _atom(self, node: Node, scope: Scope) -> Atom:
         if isinstance(node, Word) or not node.head:
@@ -112,3 +111,40 @@ class EffectReader:
         if node.head in ("or", "imply", "exists", "="):
             return self.reporter.error(f"'{node.head}' cannot be an effect", node)
         return self.reporter.error(unknown("predicate", node.head, self.vocabulary.predicates), node.items[0])
+
+
+def _fresh_names(declared: Group, node: Group, scope: Scope) -> dict[str, str]:
+    """Return other names for the variables of a quantifier that are variables outside of it, too.
+
+    Both may end up in one condition: that of a `when` around the quantifier and that of one inside it.
+    """
+    clashes = [word.text for word in _words(declared) if word.text in scope]
+    used = {word.text for word in _words(node)} if clashes else set()
+    return {
+        name: next(new for number in count(1) if (new := f"{name}_{number}") not in used and new not in scope)
+        for name in clashes
+    }
+
+
+def _words(group: Group) -> Iterator[Word]:
+    """Yield the words in a group, also those inside other groups in it."""
+    for item in group.items:
+        if isinstance(item, Word):
+            yield item
+        else:
+            yield from _words(item)
+
+
+def _renamed(nodes: list[Node], names: dict[str, str]) -> list[Node]:
+    """Return nodes with other names for some words; themselves where there are none to change."""
+    if not names:
+        return nodes
+    found: list[Node] = []
+    for node in nodes:
+        if isinstance(node, Word):
+            found.append(Word(names.get(node.text, node.text), node.index))
+        else:
+            group = Group(node.index)
+            group.items = _renamed(node.items, names)
+            found.append(group)
+    return found

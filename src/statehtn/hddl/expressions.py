@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from statehtn.hddl.tokens import Source, shortened
+
+CHECK_EVERY = 0xFFFF
+"""Tokens, a power of two less one, after which limits are checked."""
 
 
 class Word:
@@ -39,14 +44,20 @@ class Group:
 Node = Word | Group
 
 
-def parse_group(source: Source, start: int) -> Group:
-    """Return the nested list that opens at a token; the source is known to be balanced."""
+def parse_group(source: Source, start: int, after: int | None = None) -> Group:
+    """Return the nested list that opens at a token; the source is known to be balanced.
+
+    Args:
+        after: leave out what stands in the group up to this token.
+    """
     root = Group(start)
     open_groups = [root]
     tokens = source.tokens
-    index = start
+    index = start if after is None else after
     while open_groups:
         index += 1
+        if not index & CHECK_EVERY:
+            source.limits.check()
         token = tokens[index]
         if token == "(":
             group = Group(index)
@@ -57,6 +68,15 @@ def parse_group(source: Source, start: int) -> Group:
         else:
             open_groups[-1].items.append(Word(token, index))
     return root
+
+
+def consumed(group: Group) -> Iterator[Node]:
+    """Yield what follows the first word of a group and let go of it, so that no large file is in memory twice."""
+    group.items.reverse()
+    first = group.items.pop()
+    while group.items:
+        yield group.items.pop()
+    group.items.append(first)
 
 
 def describe(node: Node) -> str:

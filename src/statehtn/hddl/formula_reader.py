@@ -6,11 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from statehtn.hddl.diagnostics import Reporter, unknown
-from statehtn.hddl.expressions import Group, Node, Word, describe
-from statehtn.hddl.typed_lists import read_parameters, type_words
+from statehtn.hddl.expressions import Group, Node, Word, consumed, describe
+from statehtn.hddl.typed_lists import read_parameters, typed_list
 from statehtn.hddl.vocabulary import Scope, Vocabulary
 from statehtn.model import TRUE, And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or
 
+SORT = frozenset({"sortof", "sort", "typeof"})
 NUMERIC = frozenset({"<", "<=", ">", ">="})
 TEMPORAL = frozenset(
     {"preference", "always", "sometime", "within", "at-most-once", "sometime-after", "sometime-before", "hold-after"}
@@ -51,7 +52,7 @@ class FormulaReader:
         return self._atom(node, scope)
 
     def _and(self, node: Group, scope: Scope) -> Formula:
-        return And(tuple(self.read(item, scope) for item in node.items[1:]))
+        return And(tuple([self.read(item, scope) for item in consumed(node)]))
 
     def _or(self, node: Group, scope: Scope) -> Formula:
         return Or(tuple(self.read(item, scope) for item in node.items[1:]))
@@ -87,7 +88,7 @@ class FormulaReader:
         if signature is not None:
             terms = self.vocabulary.terms("predicate", signature, node, node.items[1:], scope, self.reporter)
             return Atom(node.head, terms)
-        if node.head in ("sort", "sortof"):
+        if node.head in SORT:
             return self._sort_constraint(node, scope)
         if node.head in NUMERIC:
             raise self.reporter.unsupported("comparing numbers in a condition is not supported", node)
@@ -99,23 +100,23 @@ class FormulaReader:
 
     def _sort_constraint(self, node: Group, scope: Scope) -> Formula:
         """Read `(sortof ?x - t)`."""
-        if node.head not in ("sort", "sortof"):
+        if node.head not in SORT:
             raise self.reporter.error(
                 f"expected a constraint ('=', 'sortof', 'not', 'and', 'or'), found {describe(node)}",
                 node,
             )
-        term, dash, types = self._operands(node, 3, "(sortof ?x - <type>)")
-        if not isinstance(dash, Word) or dash.text != "-":
-            raise self.reporter.error(f"expected '-' and a type, found {describe(dash)}", dash)
-        kinds = type_words(types, self.reporter)
+        declared = typed_list(node.items[1:], self.reporter)
+        if len(declared) != 1 or not declared[0][1]:
+            raise self.reporter.error(f"expected '({node.head} ?x - <type>)', one variable and its type", node)
+        ((term, kinds),) = declared
         for kind in kinds:
             if kind.text not in self.vocabulary.types:
                 raise self.reporter.error(unknown("type", kind.text, self.vocabulary.types.parents), kind)
         return OfType(self.vocabulary.term(term, scope, self.reporter), tuple(kind.text for kind in kinds))
 
-    def _operands(self, node: Group, count: int, example: str = "") -> list[Node]:
+    def _operands(self, node: Group, count: int) -> list[Node]:
         if len(node.items) != count + 1:
-            expected = example or f"{count} operand{'s' if count > 1 else ''} of '{node.head}'"
+            expected = f"{count} operand{'s' if count > 1 else ''} of '{node.head}'"
             raise self.reporter.error(f"expected {expected}, found {len(node.items) - 1}", node)
         return node.items[1:]
 

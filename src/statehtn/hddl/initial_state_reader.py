@@ -111,7 +111,17 @@ class InitialStateReader:
         while depth or end == index:
             depth += {"(": 1, ")": -1}.get(source.tokens[end], 0)
             end += 1
+        self._statement(node)
+        return end
+
+    def _statement(self, node: Group) -> None:
         match node.head:
+            case "and":  # cannot name a predicate
+                self._reporter.warn("the facts of ':init' need no 'and' around them", node)
+                for item in node.items[1:]:
+                    if isinstance(item, Word):
+                        raise self._reporter.error(f"expected a fact in parentheses, found {describe(item)}", item)
+                    self._statement(item)
             case "=":
                 self._assignment(node)
             case "not":
@@ -123,7 +133,6 @@ class InitialStateReader:
                 raise self._reporter.unsupported("the initial state must be certain", node)
             case _:
                 self.facts.add(self._fact(node))
-        return end
 
     def _fact(self, node: Group) -> Fact:
         if not node.head:

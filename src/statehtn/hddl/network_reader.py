@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from itertools import count, pairwise
 
 from statehtn.hddl.cycles import find_cycle
 from statehtn.hddl.diagnostics import Reporter, unknown
-from statehtn.hddl.expressions import Group, Node, Word, describe
+from statehtn.hddl.expressions import Group, Node, Word, consumed, describe
 from statehtn.hddl.formula_reader import FormulaReader
-from statehtn.hddl.sections import Fields
-from statehtn.hddl.vocabulary import Scope, Vocabulary
+from statehtn.hddl.sections import Fields, is_empty
+from statehtn.hddl.tokens import shortened
+from statehtn.hddl.vocabulary import Scope, Vocabulary, words
 from statehtn.model import TRUE, Subtask, TaskNetwork
 
 UNORDERED = (":subtasks", ":tasks")
 ORDERED = (":ordered-subtasks", ":ordered-tasks")
 ORDERING = (":ordering", ":order")
-NETWORK_KEYWORDS = (*UNORDERED, *ORDERED, *ORDERING, ":constraints")
+CAUSAL_LINKS = (":causal-links", ":causallinks")
+_WITHOUT_SPACES = re.compile(r"(?P<first>[<>])? ?(?P<left>[^<> ]+) ?(?(first) |(?P<middle>[<>])) ?(?P<right>[^<> ]+)")
+NETWORK_KEYWORDS = (*UNORDERED, *ORDERED, *ORDERING, ":constraints", *CAUSAL_LINKS)
 
 
 def read_network(fields: Fields, scope: Scope, vocabulary: Vocabulary, reporter: Reporter) -> TaskNetwork:
@@ -24,14 +29,12 @@ def read_network(fields: Fields, scope: Scope, vocabulary: Vocabulary, reporter:
     Raises:
         InputError: a task or label is unknown, a label stands twice, or the order is cyclic.
     """
-    nodes = list(_conjuncts(fields.get(*UNORDERED, *ORDERED)))
-    subtasks = _subtasks(nodes, scope, vocabulary, reporter)
-    ordering: dict[tuple[int, int], None] = {}
-    if any(keyword in fields.values for keyword in ORDERED):
-        ordering = {(i, i + 1): None for i in range(len(subtasks) - 1)}
+    subtasks = _subtasks(fields.get(*UNORDERED, *ORDERED), scope, vocabulary, reporter)
+    is_chain = any(keyword in fields.values for keyword in ORDERED)
+    ordering = tuple(pairwise(range(len(subtasks)))) if is_chain else ()
     order = fields.get(*ORDERING)
     if order is not None:
-        ordering |= dict.fromkeys(_pairs(order, subtasks, reporter))
+        ordering = tuple(dict.fromkeys((*ordering, *_pairs(order, subtasks, reporter))))
         after: dict[int, list[int]] = {}
         for i, j in ordering:
             after.setdefault(i, []).append(j)
@@ -40,32 +43,33 @@ def read_network(fields: Fields, scope: Scope, vocabulary: Vocabulary, reporter:
             raise reporter.error(f"the ordering of the subtasks is cyclic: {labels}", order)
     constraints = fields.get(":constraints")
     formula = TRUE if constraints is None else FormulaReader(vocabulary, reporter, True).read(constraints, scope)
-    return TaskNetwork(subtasks, tuple(ordering), formula)
+    links = fields.get(*CAUSAL_LINKS)
+    if links is not None and not is_empty(links):
+        reporter.warn("causal links are not a part of HTN planning and are ignored", links)
+    return TaskNetwork(subtasks, ordering, formula)
 
 
 def _conjuncts(group: Group | None) -> Iterator[Node]:
     """Yield the parts of `(and ...)`, of nothing, or of a single thing."""
-    if group is None or not group.items:
-        return
-    if group.head == "and":
-        yield from group.items[1:]
-    else:
-        yield group
+    if group is not None and group.items:
+        yield from group.items[1:] if group.head == "and" else (group,)
 
 
-def _subtasks(nodes: list[Node], scope: Scope, vocabulary: Vocabulary, reporter: Reporter) -> tuple[Subtask, ...]:
-    parts = [_label_and_task(node, reporter) for node in nodes]
+def _subtasks(group: Group | None, scope: Scope, vocabulary: Vocabulary, reporter: Reporter) -> tuple[Subtask, ...]:
     labels: set[str] = set()
-    for label, _ in parts:
+    for node in _conjuncts(group):
+        label, _ = _label_and_task(node, reporter)
         if label is not None:
             if label.text in labels:
                 raise reporter.error(f"label '{label.text}' stands twice in one network", label)
             labels.add(label.text)
-    fresh = (name for name in map("task{}".format, range(len(parts) + len(labels))) if name not in labels)
-    return tuple(
-        _subtask(next(fresh) if label is None else label.text, task, scope, vocabulary, reporter)
-        for label, task in parts
-    )
+    fresh = (name for name in map("task{}".format, count()) if name not in labels)
+    found = []
+    for node in consumed(group) if group is not None and group.head == "and" else _conjuncts(group):
+        label, task = _label_and_task(node, reporter)
+        name = next(fresh) if label is None else label.text
+        found.append(_subtask(name, task, scope, vocabulary, reporter))
+    return tuple(found)
 
 
 def _label_and_task(node: Node, reporter: Reporter) -> tuple[Word | None, Group]:
@@ -94,23 +98,34 @@ def _subtask(label: str, node: Group, scope: Scope, vocabulary: Vocabulary, repo
 
 
 def _pairs(group: Group, subtasks: tuple[Subtask, ...], reporter: Reporter) -> Iterator[tuple[int, int]]:
-    """Yield the indices of `(< a b)` and `(> b a)`."""
+    """Yield the indices of `(< a b)`, `(a < b)` and `(> b a)`."""
     index_of = {subtask.label: index for index, subtask in enumerate(subtasks)}
     for node in _conjuncts(group):
-        if isinstance(node, Word) or len(node.items) != 3:
+        if not isinstance(node, Group):
             raise reporter.error(f"expected '(< <label> <label>)', found {describe(node)}", node)
-        sign, first, second = node.items
-        if isinstance(first, Word) and first.text in ("<", ">"):  # (a < b) is written, too
-            sign, first = first, sign
-        if isinstance(sign, Group) or sign.text not in ("<", ">"):
-            raise reporter.error(f"expected '(< <label> <label>)', found {describe(node)}", node)
+        if not node.items:
+            continue
+        sign, first, second = _comparison(node, reporter)
         before, after = (_index(label, index_of, reporter) for label in (first, second))
-        yield (before, after) if sign.text == "<" else (after, before)
+        yield (before, after) if sign == "<" else (after, before)
 
 
-def _index(label: Node, index_of: dict[str, int], reporter: Reporter) -> int:
-    if isinstance(label, Group):
-        raise reporter.error(f"expected a label, found {describe(label)}", label)
+def _comparison(node: Group, reporter: Reporter) -> tuple[str, Word, Word]:
+    """Return the sign of a comparison and the labels to its left and right."""
+    labels = [item for item in words(node.items, "a label", reporter) if item.text not in ("<", ">")]
+    signs = [item.text for item in words(node.items[:2], "a label", reporter) if item.text in ("<", ">")]
+    if len(signs) == 1 and len(labels) == 2 and len(node.items) == 3:
+        return signs[0], labels[0], labels[1]
+    text = " ".join(item.text for item in words(node.items, "a label", reporter))
+    match = _WITHOUT_SPACES.fullmatch(text)
+    if match is None:
+        raise reporter.error(f"expected '(< <label> <label>)', found {describe(node)}", node)
+    reporter.warn(f"expected '(< <label> <label>)' with spaces, found '({shortened(text)})'", node)
+    sign = match["first"] or match["middle"]
+    return sign, Word(match["left"], node.index), Word(match["right"], node.index)
+
+
+def _index(label: Word, index_of: dict[str, int], reporter: Reporter) -> int:
     if label.text not in index_of:
         raise reporter.error(unknown("label", label.text, index_of), label)
     return index_of[label.text]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+
+from statehtn.errors import StateHtnError
 from statehtn.hddl.cost_reader import TOTAL_COST
 from statehtn.hddl.diagnostics import Diagnostics, Reporter, unknown
 from statehtn.hddl.expressions import Group, Word, describe, parse_group
@@ -16,6 +19,16 @@ from statehtn.limits import Limits
 from statehtn.model import TRUE, Domain, Formula, Parameter, Problem, TaskNetwork
 
 SECTIONS = (":domain", ":requirements", ":objects", ":htn", ":init", ":goal", ":metric")
+TASK_INSERTION = "inserting tasks that the hierarchy does not ask for (TIHTN) is not supported; expected ':htn'"
+UNSUPPORTED = {
+    ":constraints": "trajectory constraints are not supported",
+    ":utility": "utilities of facts are not supported",
+    ":bound": "bounds on the cost are not supported",
+    ":include": "including other files is not supported",
+    ":tihtn": TASK_INSERTION,
+    ":htnti": TASK_INSERTION,
+    ":htn-ti": TASK_INSERTION,
+}
 UNIQUE = (":domain", ":htn", ":goal", ":metric")
 
 
@@ -25,13 +38,29 @@ def read_problem(
     """Return the problem of a file.
 
     Args:
-        vocabulary: the domain's declarations; the problem's objects are added to them.
+        vocabulary: the domain's declarations; the problem's objects are added to them. Objects that the problem
+            declares with several types add types to the domain.
 
     Raises:
         InputError: with the place of the mistake.
         UnsupportedError: it asks for something that is not supported, a metric other than the total cost, say.
     """
     return _ProblemReader(source, domain, vocabulary, Reporter(source, diagnostics), limits).read()
+
+
+def problem_objects(source: Source, vocabulary: Vocabulary) -> dict[str, str]:
+    """Return the objects of a problem with their types, before the problem is read.
+
+    Mistakes in them end the list; they are told when the problem is read.
+    """
+    scratch, objects = Vocabulary(), dict[str, str]()
+    scratch.declare_types(vocabulary.types.parents)
+    reporter = Reporter(source, Diagnostics(strict=False))
+    with suppress(StateHtnError):
+        for start, end in source.sections:
+            if source.tokens[start + 1] == ":objects":
+                read_objects(start, end, scratch, objects, reporter)
+    return objects
 
 
 class _ProblemReader:
@@ -50,8 +79,8 @@ class _ProblemReader:
         self._sort_sections()
         self._check_domain()
         objects: dict[str, str] = {}
-        for start, _ in self.sections[":objects"]:
-            objects |= read_objects(parse_group(self.source, start).items[1:], self.vocabulary, self.reporter)
+        for start, end in self.sections[":objects"]:
+            read_objects(start, end, self.vocabulary, objects, self.reporter)
         parameters, network = self._network()
         goal = self._goal()
         self._check_metric()
@@ -62,11 +91,10 @@ class _ProblemReader:
 
     def _sort_sections(self) -> None:
         for start, end in self.source.sections[1:]:
-            word = section_name(self.source, start)
-            name = ":htn" if word.startswith(":htn-") else word
+            word = name = section_name(self.source, start)
             if name not in self.sections:
-                if name == ":constraints":
-                    raise self.reporter.unsupported("trajectory constraints are not supported", Word(name, start))
+                if name in UNSUPPORTED:
+                    raise self.reporter.unsupported(UNSUPPORTED[name], Word(name, start))
                 raise self.source.error(unknown("section", name, SECTIONS), start)
             if self.sections[name]:
                 if name in UNIQUE:

@@ -64,6 +64,12 @@ class Fields:
         return [] if group is None else group.items
 
 
+def is_empty(group: Group) -> bool:
+    """Tell whether a formula or an effect says nothing: `()` or `(and)`, also inside each other."""
+    parts = group.items[1:] if group.head == "and" else group.items
+    return all(isinstance(part, Group) and is_empty(part) for part in parts)
+
+
 def section_name(source: Source, start: int) -> str:
     """Return the first word of a section.
 

@@ -23,10 +23,14 @@ Python's recursion limit. Benchmarks need about ten."""
 MAX_SECTION = 2_000_000
 """Tokens in one section other than `:init`, which is read without building nested lists."""
 
+MAX_MESSAGE = 1000
+"""Characters of a message."""
+
 CHUNK = 1 << 16
 _COMMENT = re.compile(r";[^\n]*")
 _TOKEN = re.compile(r"[()]|[^\s()]+")
 _BREAK = re.compile(r"[\s()]")
+_LONG_WORD = re.compile(r"[^\s']{64,}")
 _TOKEN_OR_COMMENT = re.compile(r"([()]|[^\s();]+)|;[^\n]*")
 
 
@@ -36,7 +40,7 @@ class Source:
     Args:
         text: the whole text of the file.
         file: the file's name in messages.
-        limits: checked every 64 kB.
+        limits: checked every 64 kB, and by those who read long sections.
 
     Attributes:
         tokens: parentheses and words, comments left out.
@@ -46,16 +50,17 @@ class Source:
         InputError: the text is empty, is not one balanced `(define ...)`, or is nested too deeply.
     """
 
-    __slots__ = ("_finder", "_offsets", "file", "sections", "text", "tokens")
+    __slots__ = ("_finder", "_offsets", "file", "limits", "sections", "text", "tokens")
 
     def __init__(self, text: str, file: str, limits: Limits) -> None:
         self.file = file
+        self.limits = limits
         self.text = text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
         self.tokens: list[str] = []
         self.sections: list[tuple[int, int]] = []
         self._offsets = array("Q")
         self._finder = (match.start() for match in _TOKEN_OR_COMMENT.finditer(self.text) if match.lastindex)
-        self._tokenise(limits)
+        self._tokenise()
 
     def place(self, index: int) -> Place:
         """Return where a token stands; an index past the last token means the end of the file."""
@@ -68,14 +73,14 @@ class Source:
 
     def error(self, message: str, index: int) -> InputError:
         """Return an error about the token at an index."""
-        return InputError(message, self.place(index))
+        return InputError(concise(message), self.place(index))
 
-    def _tokenise(self, limits: Limits) -> None:
+    def _tokenise(self) -> None:
         depth = 0
         tokens, sections = self.tokens, self.sections
         start = 0
         for chunk in self._chunks():
-            limits.check()
+            self.limits.check()
             for index, token in enumerate(chunk, len(tokens)):
                 if token == "(":
                     depth += 1
@@ -194,6 +199,12 @@ def read_text(path: str | PathLike[str]) -> str:
 def shortened(word: str) -> str:
     """Return a word for a message, cut where it is long."""
     return word if len(word) <= 60 else f"{word[:60]}..."
+
+
+def concise(message: str) -> str:
+    """Return a message without the rest of words and lists that are too long to read."""
+    message = _LONG_WORD.sub(lambda match: shortened(match[0]), message)
+    return message if len(message) <= MAX_MESSAGE else f"{message[:MAX_MESSAGE]}..."
 
 
 def _place_of_byte(file: str, data: bytes, offset: int) -> Place:

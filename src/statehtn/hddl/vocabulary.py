@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
+from statehtn.hddl.tokens import shortened
 from statehtn.model import Parameter, Signature, TypeHierarchy
 from statehtn.model.types import ROOT_TYPE
 
@@ -15,17 +16,48 @@ Scope = Mapping[str, Types]
 
 
 class Vocabulary:
-    """Everything that has been declared so far; `tasks` are the compound ones, `actions` the primitive ones."""
+    """Everything that has been declared so far; `tasks` are the compound ones, `actions` the primitive ones.
 
-    def __init__(self) -> None:
-        self.types = TypeHierarchy()
+    Args:
+        problem_objects: gives the problem's objects with their types while the domain is read, which should declare
+            what it names, but may leave that to the problem.
+
+    Attributes:
+        objects: the types of the constants and of the problem's objects.
+        borrowed: constants that only the problem declares.
+    """
+
+    def __init__(self, problem_objects: Callable[[], Mapping[str, str]] = dict) -> None:
+        self._parents: dict[str, Types] = {}
+        self.types = TypeHierarchy(self._parents)
+        self.constants: dict[str, str] = {}
         self.objects: dict[str, str] = {}
+        self.borrowed: set[str] = set()
         self.predicates: dict[str, Signature] = {}
         self.functions: dict[str, Signature] = {}
         self.tasks: dict[str, Signature] = {}
         self.actions: dict[str, Signature] = {}
         self._supertypes: dict[str, frozenset[str]] = {}
         self._overlaps: dict[tuple[Types, Types], bool] = {}
+        self._problem_objects = problem_objects
+
+    def declare_types(self, parents: Mapping[str, Types]) -> None:
+        """Add types with their supertypes."""
+        self._parents.update(parents)
+        self._supertypes.clear()
+        self._overlaps.clear()
+
+    def joint_type(self, left: str, right: str) -> str:
+        """Return the type of the objects that are of both types: the lower one of them, or a new one below both."""
+        if right in self.supertypes(left):
+            return left
+        if left in self.supertypes(right):
+            return right
+        name = f"{left}+{right}"
+        while self._parents.setdefault(name, (left, right)) != (left, right):
+            name += "+"
+        self._overlaps.clear()
+        return name
 
     def overlap(self, left: Types, right: Types) -> bool:
         """Tell whether an object could be of one of the left types and one of the right ones."""
@@ -59,6 +91,12 @@ class Vocabulary:
             return node.text
         if node.text.startswith("?"):
             raise reporter.error(unknown("variable", node.text, scope), node)
+        kind = self._problem_objects().get(node.text)
+        if kind is not None and kind in self.types:
+            reporter.warn(f"'{shortened(node.text)}' is an object of the problem, not a constant of the domain", node)
+            self.constants[node.text] = self.objects[node.text] = kind
+            self.borrowed.add(node.text)
+            return node.text
         raise reporter.error(unknown("object", node.text, self.objects), node)
 
     def terms(

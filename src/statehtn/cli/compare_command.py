@@ -1,0 +1,136 @@
+"""`statehtn compare`: run a suite, each run in a process of its own, and keep a record of each as it ends."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from statehtn.cli.exit_codes import ExitCode
+from statehtn.cli.files import OutputError, emit
+from statehtn.cli.tables import readable_summaries
+from statehtn.errors import InputError
+from statehtn.experiments.record_files import RecordFiles, csv_line
+from statehtn.experiments.records import COLUMNS, Record, Row
+from statehtn.experiments.run import Grid, Run, agents_of
+from statehtn.experiments.runner import execute_all
+from statehtn.experiments.suites import SUITES
+from statehtn.experiments.summary import summarise, summary_of
+
+Show = Callable[[Record], None]
+
+
+def run_compare(options: argparse.Namespace) -> ExitCode:
+    """Run the command and return its exit code: success once every run is recorded, whatever has come of it.
+
+    Raises:
+        StateHtnError: the options are wrong, or there is nothing to run.
+        OutputError: a record cannot be written.
+    """
+    runs = _runs(options)
+    try:
+        rows = _to_stdout(runs, options) if options.output is None else _to_files(runs, options)
+    except OSError as error:
+        raise OutputError(f"cannot go on: {error.strerror}") from error
+    except KeyboardInterrupt:
+        again = "" if options.output is None else f"; the same command goes on where it stopped ('{options.output}')"
+        print(f"interrupted{again}", file=sys.stderr)
+        return ExitCode.INTERRUPTED
+    if not options.quiet:
+        _summarise(rows, options)
+    return ExitCode.SUCCESS
+
+
+def _runs(options: argparse.Namespace) -> list[Run]:
+    """Return the runs that the options ask for."""
+    grid = Grid(
+        agents=agents_of(_unique(options.attitude, ()), _unique(options.alpha, ())),
+        solvers=_unique(options.solver, Grid().solvers),
+        heuristics=_unique(options.heuristic, Grid().heuristics),
+        searches=_unique(options.search, Grid().searches),
+        repeat=options.repeat,
+        time_limit=options.time_limit,
+        memory_limit=options.memory_limit,
+    )
+    runs = SUITES[options.suite](grid, None if options.root is None else Path(options.root))
+    if options.domain is not None:
+        runs = [run for run in runs if any(fnmatchcase(run.instance.domain, glob) for glob in options.domain)]
+        if not runs:
+            raise InputError(f"the suite has no domain called {' or '.join(map(repr, options.domain))}")
+    return runs
+
+
+def _unique(values: Sequence[Any] | None, default: Sequence[Any]) -> list[Any]:
+    return list(dict.fromkeys(values or default))
+
+
+def _to_files(runs: list[Run], options: argparse.Namespace) -> list[Row]:
+    """Execute the runs that are not recorded yet, and return the rows of all."""
+    with RecordFiles(options.output) as files:
+        missing = files.missing(runs)
+        visible = sys.stderr.isatty() and not options.quiet
+        progress = _bar(len(runs), len(runs) - len(missing)) if visible else nullcontext(_show_nothing)
+        _execute(missing, options.jobs, files.append, progress)
+        return files.rows(runs)
+
+
+def _to_stdout(runs: list[Run], options: argparse.Namespace) -> list[Row]:
+    """Execute the runs, print their rows as they end, and return them."""
+    rows: list[Row] = []
+
+    def keep(record: Record) -> None:
+        rows.append(record.row())
+        emit(csv_line(rows[-1].values()))
+
+    emit(csv_line(COLUMNS))
+    visible = sys.stderr.isatty() and not sys.stdout.isatty() and not options.quiet  # rows and bar do not mix
+    _execute(runs, options.jobs, keep, _bar(len(runs), 0) if visible else nullcontext(_show_nothing))
+    return rows
+
+
+def _execute(runs: list[Run], jobs: int, keep: Show, progress: AbstractContextManager[Show]) -> None:
+    with progress as show, closing(execute_all(runs, jobs)) as records:
+        for record in records:
+            keep(record)
+            show(record)
+
+
+def _show_nothing(_record: Record) -> None:
+    """Show nothing, because nobody is there to see it."""
+
+
+@contextmanager
+def _bar(total: int, done: int) -> Iterator[Show]:
+    """Show a progress bar on stderr that disappears in the end."""
+    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("left:"), TimeRemainingColumn())
+    text = TextColumn("{task.description}", markup=False)
+    statuses: Counter[str] = Counter()
+    with Progress(*columns, text, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("", total=total, completed=done)
+
+        def show(record: Record) -> None:
+            statuses[record.status] += 1
+            counts = ", ".join(f"{count} {status}" for status, count in statuses.most_common())
+            progress.update(task, advance=1, description=counts)
+
+        yield show
+
+
+def _summarise(rows: list[Row], options: argparse.Namespace) -> None:
+    """Print the table by domain; where standard output has the rows, on standard error."""
+    total = summary_of(rows, "in all", "")
+    text = readable_summaries(summarise(rows), total)
+    if total.errors and options.output is not None:
+        text += f"\n\nwhat the errors were: '{Path(options.output).with_suffix('.jsonl')}' (message)"
+    if options.output is None:
+        print(text, file=sys.stderr)
+    else:
+        emit(text)

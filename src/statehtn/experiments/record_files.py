@@ -1,0 +1,177 @@
+"""The files of an experiment: one row for each run in a CSV file, and everything else in JSON Lines beside it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from types import TracebackType
+
+from statehtn.errors import UsageError
+from statehtn.experiments.records import COLUMNS, KEY_COLUMNS, Record, Row
+from statehtn.experiments.run import Run
+
+Key = tuple[str, ...]
+Limits = tuple[float | None, float | None]
+JSON_START = '{"key": ["'
+
+
+def csv_line(values: Iterable[str]) -> str:
+    """Return a line of a CSV file, without its newline."""
+    buffer = io.StringIO()
+    csv.writer(buffer, lineterminator="").writerow(values)
+    return buffer.getvalue()
+
+
+class RecordFiles:
+    """The two files, open for more records; a run is done when its row is in the CSV file.
+
+    The JSON is written before the row, and each is written at once: if the process is killed in between, the run is
+    done again, and its last JSON counts. A torn line at the end of a file is dropped when it is opened.
+
+    Args:
+        name: the CSV file; that of JSON Lines has `.jsonl` for its suffix.
+
+    Raises:
+        UsageError: a file cannot be written, is being written by another process, or holds something else.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.json_name = str(Path(name).with_suffix(".jsonl"))
+        if Path(name) == Path(self.json_name):
+            raise UsageError(f"'{name}' is the name of the file beside the table; choose another, such as *.csv")
+        self._csv = _LineFile(name, csv_line(COLUMNS))
+        self._json = _LineFile(self.json_name, JSON_START)
+        self._rows = self._read_rows()
+        self._limits = self._read_limits()
+        self._csv.drop_torn_line()
+        self._json.drop_torn_line()
+        if not self._csv.lines:
+            self._csv.append(csv_line(COLUMNS))
+
+    def __enter__(self) -> RecordFiles:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._csv.close()
+        self._json.close()
+
+    def missing(self, runs: Sequence[Run]) -> list[Run]:
+        """Return those of the runs that are still to be done.
+
+        Raises:
+            UsageError: runs with other limits are in the table; what they tell must not be mixed.
+        """
+        asked = {(run.time_limit, run.memory_limit) for run in runs}
+        for key, limits in self._limits.items():
+            if key in self._rows and limits not in asked:
+                raise UsageError(
+                    f"the runs in '{self.name}' have {_limits_text(limits)}, those to be done "
+                    f"{' or '.join(map(_limits_text, asked))}; choose the same limits or another --output"
+                )
+        return [run for run in runs if run.key not in self._rows]
+
+    def rows(self, runs: Iterable[Run]) -> list[Row]:
+        """Return the rows of those of the runs that are done."""
+        return [self._rows[run.key] for run in runs if run.key in self._rows]
+
+    def append(self, record: Record) -> None:
+        """Write a record to both files.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        row = record.row()
+        self._json.append(json.dumps(record.to_dict(), allow_nan=False))
+        self._csv.append(csv_line(row.values()))
+        self._rows[record.run.key] = row
+
+    def _read_rows(self) -> dict[Key, Row]:
+        rows = {}
+        for number, values in enumerate(csv.reader(self._csv.lines), 1):
+            if len(values) != len(COLUMNS) or (number == 1 and tuple(values) != COLUMNS):
+                raise UsageError(f"line {number} of '{self.name}' is none of a comparison's; choose another --output")
+            if number > 1:
+                rows[tuple(values[: len(KEY_COLUMNS)])] = dict(zip(COLUMNS, values, strict=True))
+        return rows
+
+    def _read_limits(self) -> dict[Key, Limits]:
+        limits = {}
+        for number, line in enumerate(self._json.lines, 1):
+            try:
+                record = json.loads(line)
+                limits[tuple(record["key"])] = (record["run"]["time_limit"], record["run"]["memory_limit"])
+            except (ValueError, KeyError, TypeError):
+                message = f"line {number} of '{self.json_name}' is no record of a run; choose another --output"
+                raise UsageError(message) from None
+        return limits
+
+
+class _LineFile:
+    """A text file to which whole lines are appended; not to be changed by two processes at once.
+
+    Args:
+        name: the file; it is made if it is not there.
+        start: how its content begins, if it has any.
+
+    Raises:
+        UsageError: it cannot be written, is open in another process, or begins otherwise.
+    """
+
+    def __init__(self, name: str, start: str) -> None:
+        if Path(name).exists() and not Path(name).is_file():
+            raise UsageError(f"cannot write '{name}': it is no regular file")
+        try:
+            self._file = open(name, "a+b", buffering=0)  # noqa: SIM115 - it stays open
+        except OSError as error:
+            raise UsageError(f"cannot write '{name}': {error.strerror}") from None
+        if not _lock(self._file.fileno()):
+            raise UsageError(f"cannot write '{name}': another comparison is writing it")
+        self._file.seek(0)
+        content = self._file.readall()
+        if not content.startswith(start.encode()) and not start.encode().startswith(content):
+            raise UsageError(f"'{name}' holds something else than a comparison's results; choose another --output")
+        self._whole = content.rfind(b"\n") + 1
+        self.lines = content[: self._whole].decode(errors="surrogateescape").split("\n")[:-1]
+
+    def drop_torn_line(self) -> None:
+        """Cut off a last line that has no end."""
+        self._file.truncate(self._whole)
+
+    def append(self, line: str) -> None:
+        """Write a line, and wait until the disk has it."""
+        data = memoryview(f"{line}\n".encode(errors="surrogateescape"))
+        while data:
+            data = data[self._file.write(data) :]
+        os.fsync(self._file.fileno())
+
+    def close(self) -> None:
+        """Close the file and give up the lock."""
+        self._file.close()
+
+
+def _lock(descriptor: int) -> bool:
+    """Lock a file until it is closed or the process ends; False if another process has done so."""
+    try:
+        import fcntl
+    except ImportError:  # not a POSIX system: the user must take care
+        return True
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system without locks
+        return True
+    return True
+
+
+def _limits_text(limits: Limits) -> str:
+    seconds, megabytes = limits
+    time = "no time limit" if seconds is None else f"a time limit of {seconds:g} s"
+    return f"{time} and " + ("no memory limit" if megabytes is None else f"a memory limit of {megabytes:g} MB")

@@ -1,0 +1,61 @@
+"""The record of a run, and its row in the table of results."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from statehtn.experiments.run import Run
+
+KEY_COLUMNS = ("domain", "problem", "attitude", "alpha", "solver", "heuristic", "repeat")
+RESULT_COLUMNS = ("risk_cost", "lower_bound", "expected_cost", "log10_expected_utility", "length")
+EFFORT_COLUMNS = ("facts", "actions", "tasks", "methods", "expanded", "generated", "evaluated")
+MEASURED_COLUMNS = ("parse_seconds", "ground_seconds", "search_seconds", "peak_memory_mb")
+COLUMNS = (*KEY_COLUMNS, "status", *RESULT_COLUMNS, *EFFORT_COLUMNS, *MEASURED_COLUMNS)
+MEASURED_DIGITS = 6
+
+Row = dict[str, str]
+"""The values of a row by column; what is not known is empty."""
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """What has come of a run.
+
+    Args:
+        run: the run.
+        status: that of the result; without one `input-error`, `unsupported`, `error` or `killed`.
+        exit_code: of its process; negative: the signal that ended it.
+        seconds: from the start of its process to its end.
+        message: what it wrote to standard error.
+        result: the object of `statehtn plan --json`, if it has printed one.
+    """
+
+    run: Run
+    status: str
+    exit_code: int
+    seconds: float
+    message: str
+    result: dict[str, Any] | None
+
+    def row(self) -> Row:
+        """Return the row of this run in the table of results."""
+        result = self.result or {}
+        effort = result.get("statistics") or {}
+        measured = {column: effort.get(column) for column in MEASURED_COLUMNS}
+        values = [
+            *self.run.key,
+            self.status,
+            *(_text(result.get(column)) for column in RESULT_COLUMNS),
+            *(_text(effort.get(column)) for column in EFFORT_COLUMNS),
+            *("" if value is None else str(round(value, MEASURED_DIGITS)) for value in measured.values()),
+        ]
+        return dict(zip(COLUMNS, values, strict=True))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything that is known, as JSON has it; `key` has the first columns of the row."""
+        return {"key": list(self.run.key), **asdict(self)}
+
+
+def _text(value: object) -> str:
+    return "" if value is None else str(value)
