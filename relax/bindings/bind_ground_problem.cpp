@@ -102,5 +102,6 @@ void bind_ground_problem(nb::module_& module) {
         .def("method_positions", &row<&GroundProblem::method_positions>)
         .def("method_ordering", &row<&GroundProblem::method_ordering>);
 
-    module.def("ground", &ground, "problem"_a, "merge_equal"_a, "replace_single_methods"_a, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none());
+    module.def("ground", &ground, "problem"_a, "merge_equal"_a, "replace_single_methods"_a, "seconds"_a = nb::none(),
+               "memory_bytes"_a = nb::none());
 }

@@ -47,8 +47,11 @@ Demand first_demand(Knowledge& knowledge) {
 
 GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& options, Limits& limits) {
     const LiftedProblem& lifted = knowledge.problem;
-    const Dependents dependents = reach_actions(knowledge, first_demand(knowledge), limits);
-    const Demand demand = find_demand(knowledge, reached_arguments(knowledge));
+    Demand coarse = first_demand(knowledge);
+    add_pair_relations(knowledge, coarse);
+    const Dependents dependents = reach_actions(knowledge, coarse, limits);
+    Demand demand = find_demand(knowledge, reached_arguments(knowledge));
+    add_pair_relations(knowledge, demand);
     reach_tasks(knowledge, demand, limits);
     if (knowledge.relations[knowledge.task_relation(lifted.initial_task)].size() == 0) {
         return unsolvable();
@@ -67,7 +70,7 @@ GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& opti
 }  // namespace
 
 std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
-                                                                const GroundingOptions& options, Limits& limits) {
+                                                               const GroundingOptions& options, Limits& limits) {
     Knowledge knowledge(problem);
     try {
         return ground_or_throw(knowledge, options, limits);

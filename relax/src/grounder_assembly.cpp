@@ -200,10 +200,10 @@ private:
     };
 
     const Remains& remains_;
-    std::vector<std::vector<RemainingCase>> cases_;      // by action node; none: dead, or always true and artificial
-    std::vector<bool> is_void_;                          // by action node: an artificial one that is always possible
-    std::vector<NodeId> stands_for_;                     // by node: itself, or an equal one
-    std::map<std::vector<Conjunction>, NodeId> tests_;   // artificial actions by what they test
+    std::vector<std::vector<RemainingCase>> cases_;     // by action node; none: dead, or always true and artificial
+    std::vector<bool> is_void_;                         // by action node: an artificial one that is always possible
+    std::vector<NodeId> stands_for_;                    // by node: itself, or an equal one
+    std::map<std::vector<Conjunction>, NodeId> tests_;  // artificial actions by what they test
     std::optional<Composition> composition_;
     std::vector<std::optional<FactId>> number_of_fact_;  // by fact
     std::vector<std::optional<TaskId>> task_of_node_;

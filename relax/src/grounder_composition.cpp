@@ -7,10 +7,14 @@ namespace relax::grounding {
 
 namespace {
 
-// A task that several methods use is replaced only if that makes nothing larger.
-constexpr std::uint32_t kMostSharedSubtasks = 1;
 constexpr std::uint32_t kMostSubtasks = 64;
 constexpr std::uint32_t kMostParts = 64;
+
+// Whether copying a network to all its users takes no more memory than a task and a method of its own.
+bool is_worth_copying(std::uint32_t subtasks, std::uint32_t users) {
+    constexpr std::uint64_t kTaskAndMethod = 4;
+    return std::uint64_t{users} * subtasks <= std::uint64_t{users} + subtasks + kTaskAndMethod;
+}
 
 Ordering transitive_closure(const LiftedMethod& method) {
     const std::size_t count = method.subtasks.size();
@@ -96,7 +100,8 @@ void Composition::drop_equal_methods() {
                    std::tie(right.subtasks, right.ordering, right.method);
         });
         for (std::size_t at = 1; at < contents.size(); ++at) {
-            if (contents[at - 1].subtasks == contents[at].subtasks && contents[at - 1].ordering == contents[at].ordering) {
+            if (contents[at - 1].subtasks == contents[at].subtasks &&
+                contents[at - 1].ordering == contents[at].ordering) {
                 graph_.is_method_alive[contents[at].method] = false;
             }
         }
@@ -153,8 +158,8 @@ void Composition::choose_replaced() {
                 size.parts += is_replaced_[subtask] ? sizes[subtask].parts : 0;
             }
             sizes[node] = size;
-            is_replaced_[node] = size.subtasks <= (use_count[node] == 1 ? kMostSubtasks : kMostSharedSubtasks) &&
-                                 size.parts <= kMostParts;
+            is_replaced_[node] = size.subtasks <= kMostSubtasks && size.parts <= kMostParts &&
+                                 is_worth_copying(size.subtasks, use_count[node]);
         }
     }
 }
@@ -176,7 +181,8 @@ void Composition::append(MethodInstanceId method, std::uint32_t parent, std::uin
         begin.push_back(static_cast<std::uint32_t>(network.subtasks.size()));
         if (is_replaced_[subtasks[at]]) {
             const auto [first, end] = graph_.methods_of[subtasks[at] - graph_.action_node_count];
-            const auto only = std::find(graph_.is_method_alive.begin() + first, graph_.is_method_alive.begin() + end, true);
+            const auto only =
+                std::find(graph_.is_method_alive.begin() + first, graph_.is_method_alive.begin() + end, true);
             append(static_cast<MethodInstanceId>(only - graph_.is_method_alive.begin()), part, at, network);
         } else if (!vanishes(subtasks[at])) {
             network.subtasks.push_back({stands_for_[subtasks[at]], part, at});

@@ -1,6 +1,7 @@
 #include "grounder_demand.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace relax::grounding {
 
@@ -83,7 +84,9 @@ public:
         const LiftedProblem& problem = knowledge.problem;
         methods_of_.resize(knowledge.task_count());
         for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
-            demand_.arguments.emplace_back(knowledge.task_parameters(task).size(), ObjectSet(problem.object_count));
+            const std::size_t arity = knowledge.task_parameters(task).size();
+            demand_.arguments.emplace_back(arity, ObjectSet(problem.object_count));
+            demand_.pairs.emplace_back(arity * arity);
         }
         demand_.is_demanded.assign(knowledge.task_count(), false);
         demand_.is_method_demanded.assign(problem.methods.size(), false);
@@ -152,7 +155,64 @@ private:
                 is_new |= set.add(object);
             }
         }
+        for (std::size_t second = 1; second < subtask.arguments.size(); ++second) {
+            for (std::size_t first = 0; first < second; ++first) {
+                is_new |= hand_down_pairs(method, subtask, first, second);
+            }
+        }
         return is_new;
+    }
+
+    // The same for two arguments at once, as long as few pairs of objects are asked for.
+    bool hand_down_pairs(std::uint32_t method, const LiftedSubtask& subtask, std::size_t first, std::size_t second) {
+        constexpr std::size_t kMostPairs = std::size_t{1} << 17;
+        PairSet& target = demand_.pairs_of(subtask.task, first, second);
+        if (target.is_open) {
+            return false;
+        }
+        const std::size_t before = target.pairs.size();
+        const auto add = [&](ObjectId left, ObjectId right) { target.pairs.add(std::array{left, right}); };
+        const Term left = subtask.arguments[first];
+        const Term right = subtask.arguments[second];
+        const auto slot = [&](Term term) -> const ObjectSet& {
+            return demand_.method_slots[method][static_cast<std::size_t>(term)];
+        };
+        if (left < 0 && right < 0) {
+            add(static_cast<ObjectId>(~left), static_cast<ObjectId>(~right));
+        } else if (left < 0 || right < 0 || left == right) {
+            for (const ObjectId object : slot(std::max(left, right)).members()) {
+                add(left < 0 ? static_cast<ObjectId>(~left) : object,
+                    right < 0 ? static_cast<ObjectId>(~right) : object);
+            }
+        } else if (const auto [source, is_swapped] = given_pairs(method, left, right); source != nullptr) {
+            const std::size_t count = source->pairs.size();  // source and target may be the same
+            for (TupleId pair = 0; pair < count; ++pair) {
+                const ObjectId one = source->pairs[pair][is_swapped ? 1 : 0];
+                const ObjectId other = source->pairs[pair][is_swapped ? 0 : 1];
+                if (slot(left).contains(one) && slot(right).contains(other)) {
+                    add(one, other);
+                }
+            }
+        } else {
+            target.is_open = true;
+        }
+        target.is_open = target.is_open || target.pairs.size() > kMostPairs;
+        return target.is_open || target.pairs.size() > before;
+    }
+
+    // The pairs of objects that two variables of a method get from the task that it decomposes, and whether they stand
+    // there the other way round; none if they do not both come from there, or anything goes.
+    std::pair<const PairSet*, bool> given_pairs(std::uint32_t method, Term left, Term right) const {
+        const LiftedMethod& lifted = knowledge_.problem.methods[method];
+        const auto left_at = std::ranges::find(lifted.task_arguments, left);
+        const auto right_at = std::ranges::find(lifted.task_arguments, right);
+        if (left_at == lifted.task_arguments.end() || right_at == lifted.task_arguments.end()) {
+            return {nullptr, false};
+        }
+        const auto first = static_cast<std::size_t>(std::min(left_at, right_at) - lifted.task_arguments.begin());
+        const auto second = static_cast<std::size_t>(std::max(left_at, right_at) - lifted.task_arguments.begin());
+        const PairSet& pairs = demand_.pairs_of(lifted.task, first, second);
+        return {pairs.is_open ? nullptr : &pairs, right_at < left_at};
     }
 
     const Knowledge& knowledge_;
@@ -192,6 +252,24 @@ ArgumentSets reached_arguments(const Knowledge& knowledge) {
 
 Demand find_demand(const Knowledge& knowledge, const ArgumentSets& possible) {
     return DemandFinder(knowledge, possible).find();
+}
+
+void add_pair_relations(Knowledge& knowledge, Demand& demand) {
+    demand.pair_relations.resize(knowledge.task_count());
+    for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
+        const std::vector<ObjectSet>& sets = demand.arguments[task];
+        for (std::uint32_t second = 1; demand.is_demanded[task] && second < sets.size(); ++second) {
+            for (std::uint32_t first = 0; first < second; ++first) {
+                PairSet& set = demand.pairs_of(task, first, second);
+                if (!set.is_open && 2 * set.pairs.size() <= sets[first].size() * sets[second].size()) {
+                    demand.pair_relations[task].push_back(
+                        {static_cast<RelationId>(knowledge.relations.size()), first, second});
+                    knowledge.relations.push_back(std::move(set.pairs));
+                }
+            }
+        }
+    }
+    demand.pairs.clear();
 }
 
 }  // namespace relax::grounding

@@ -55,6 +55,7 @@ private:
         for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
             grows.push_back(knowledge.is_action(task) && demand.is_demanded[task]);
         }
+        grows.resize(knowledge.relations.size(), false);
         return grows;
     }
 
@@ -66,6 +67,10 @@ private:
         for (std::uint32_t slot = 0; slot < action.parameters.size(); ++slot) {
             rule.domains[slot] = &demand_.arguments[number][slot];
             rule.head.push_back(slot);
+        }
+        for (const PairRelation& pairs : demand_.pair_relations[number]) {
+            rule.patterns.push_back(
+                {pairs.relation, {static_cast<Term>(pairs.first), static_cast<Term>(pairs.second)}});
         }
         add_condition(std::move(rule), action.precondition, Head(number));
         for (std::uint32_t effect = 0; effect < action.effects.size(); ++effect) {

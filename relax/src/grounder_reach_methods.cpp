@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "grounder_method_rule.hpp"
 #include "grounder_join.hpp"
+#include "grounder_method_rule.hpp"
 #include "grounder_reachability.hpp"
 
 namespace relax::grounding {
@@ -16,6 +16,10 @@ Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t
     }
     for (const LiftedSubtask& subtask : method.subtasks) {
         rule.patterns.push_back({knowledge.task_relation(subtask.task), subtask.arguments});
+    }
+    for (const PairRelation& pairs : demand.pair_relations[method.task]) {
+        rule.patterns.push_back(
+            {pairs.relation, {method.task_arguments[pairs.first], method.task_arguments[pairs.second]}});
     }
     std::vector<Formula> constraints;
     split_conjunction(negation_normal_form(method.constraints), constraints);
@@ -65,8 +69,10 @@ void reach_tasks(Knowledge& knowledge, const Demand& demand, Limits& limits) {
         }
         knowledge.relations[knowledge.task_relation(method.task)].add(arguments);
     };
-    std::vector<bool> grows(problem.predicate_count + problem.actions.size(), false);
-    grows.resize(knowledge.relations.size(), true);
+    std::vector<bool> grows(knowledge.relations.size(), false);
+    for (auto task = static_cast<std::uint32_t>(problem.actions.size()); task < knowledge.task_count(); ++task) {
+        grows[knowledge.task_relation(task)] = true;
+    }
     JoinEngine engine(knowledge, std::move(grows), limits, emit);
     std::vector<std::uint32_t> initial_methods;
     for (std::uint32_t method = 0; method < problem.methods.size(); ++method) {

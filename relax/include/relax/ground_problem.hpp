@@ -48,13 +48,14 @@ struct GroundProblem {
     // that the others decompose have no other method. A method of a choice has none.
     std::vector<std::uint32_t> method_part_begin;
     Rows<TaskId> method_subtasks;
-    // Of each subtask: the part that it belongs to, counted from the method's first, and its index in that lifted method.
+    // Of each subtask: the part that it belongs to, counted from the method's first, and its index in that lifted
+    // method.
     Rows<std::pair<std::uint32_t, std::uint32_t>> method_positions;
     Rows<std::pair<std::uint32_t, std::uint32_t>>
         method_ordering;  // indices into the subtasks; transitively closed, sorted
 
-    // By part: the lifted method; the part whose subtask it decomposes, counted from the method's first, and the index of
-    // that subtask in the lifted method.
+    // By part: the lifted method; the part whose subtask it decomposes, counted from the method's first, and the index
+    // of that subtask in the lifted method.
     std::vector<std::uint32_t> part_schema;
     Rows<ObjectId> part_arguments;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> part_origin;

@@ -29,7 +29,7 @@ struct GroundingOptions {
 // Instantiate what the initial task can lead to, and what can be reached, of a lifted problem. Numbering depends on the
 // problem alone.
 std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
-                                                                const GroundingOptions& options, Limits& limits);
+                                                               const GroundingOptions& options, Limits& limits);
 
 }  // namespace relax
 

@@ -145,66 +145,121 @@ def _guard(name: str, parameters: Sequence[Parameter], condition: Sequence[Formu
 
 
 def _split(scheme: Scheme) -> list[Scheme]:
-    """Hand subtasks with variables of their own over to new tasks, as long as other choices are left beside them."""
+    """Hand subtasks with variables of their own over to new tasks, as long as other variables are left beside them."""
     parts: list[Scheme] = []
-    free = {parameter.name for parameter in scheme.parameters} - set(scheme.arguments)
-    own = _own_variables(scheme, free) if len(free) > 1 else {}
-    # From the last subtask to the first: what is chosen late need not be chosen at once.
-    for index in sorted(own, reverse=True):
-        subtask = scheme.subtasks[index]
-        moved = [formula for formula in conjuncts(scheme.constraints) if own[index] & set(free_variables(formula))]
-        shared = _variables(subtask).union(*map(free_variables, moved)) - own[index]
-        if free <= own[index] | shared:
-            continue
-        free -= own[index]
-        handed = tuple(parameter.name for parameter in scheme.parameters if parameter.name in shared)
-        part = Scheme(
-            scheme.method,
-            f"part {len(parts) + 1} of {scheme.method.name if scheme.method else scheme.task}",
-            handed,
-            tuple(parameter for parameter in scheme.parameters if parameter.name in own[index] | shared),
-            And(tuple(moved)),
-            (subtask,),
-            (),
-            is_part=True,
-        )
-        parts.append(part)
-        scheme = replace(
-            scheme,
-            parameters=tuple(parameter for parameter in scheme.parameters if parameter.name not in own[index]),
-            constraints=And(tuple(formula for formula in conjuncts(scheme.constraints) if formula not in moved)),
-            subtasks=(
-                *scheme.subtasks[:index],
-                SchemeSubtask(part.task, handed, None),
-                *scheme.subtasks[index + 1 :],
-            ),
-        )
+    while cut := next((cut for cut in _cuts(scheme) if cut.others), None):
+        part, scheme = _cut(scheme, cut, len(parts) + 1)
+        parts += _split(part)
     return [*parts, scheme]
+
+
+@dataclass(frozen=True)
+class _Cut:
+    """Subtasks that could go to a new task.
+
+    Args:
+        indices: which ones; all other subtasks are ordered in the same way to each of them.
+        own: variables that nothing else mentions; they go along.
+        moved: the constraints with such variables.
+        shared: the other variables that the subtasks and these constraints mention.
+        others: the remaining variables of the scheme.
+    """
+
+    indices: tuple[int, ...]
+    own: frozenset[str]
+    moved: tuple[Formula, ...]
+    shared: frozenset[str]
+    others: frozenset[str]
+
+
+def _cuts(scheme: Scheme) -> Iterator[_Cut]:
+    """Yield the cuts, those of few subtasks first, and late subtasks before early ones."""
+    free = {parameter.name for parameter in scheme.parameters} - set(scheme.arguments)
+    users: dict[str, set[int]] = {name: set() for name in free}
+    for index, subtask in enumerate(scheme.subtasks):
+        for name in _variables(subtask) & free:
+            users[name].add(index)
+    groups = {tuple(sorted(indices)) for indices in users.values() if 0 < len(indices) < len(scheme.subtasks)}
+    constraints = [(formula, set(free_variables(formula))) for formula in conjuncts(scheme.constraints)]
+    for indices in sorted(groups, key=lambda group: (len(group), [-index for index in group])):
+        if not _is_module(scheme, indices):
+            continue
+        own = {name for name, where in users.items() if where and where.issubset(indices)}
+        # Variables of constraints only go along unless they tie others that stay and have one user.
+        staying = {name for name, where in users.items() if len(where) == 1} - own
+        loose = {name for name, where in users.items() if not where}
+        for name in sorted(loose):
+            tied = {name}
+            while grown := {n for _, names in constraints if names & tied & loose for n in names} - tied:
+                tied |= grown
+            if tied & own and not tied & staying:
+                own.add(name)
+        moved = [(formula, names) for formula, names in constraints if names & own]
+        mentioned = set().union(*(_variables(scheme.subtasks[index]) for index in indices))
+        shared = mentioned.union(*(names for _, names in moved)) - own
+        others = {parameter.name for parameter in scheme.parameters} - own - shared
+        yield _Cut(
+            indices, frozenset(own), tuple(formula for formula, _ in moved), frozenset(shared), frozenset(others)
+        )
+
+
+def _is_module(scheme: Scheme, indices: tuple[int, ...]) -> bool:
+    """Tell whether every other subtask is before all of these, after all, or unordered to all."""
+    if len(indices) == 1:
+        return True
+    after = _transitive(scheme)
+    inside = set(indices)
+    return all(
+        len({(index in after[other], other in after[index]) for index in indices}) == 1
+        for other in range(len(scheme.subtasks))
+        if other not in inside
+    )
+
+
+def _transitive(scheme: Scheme) -> list[set[int]]:
+    """Return for every subtask those that come after it."""
+    after: list[set[int]] = [set() for _ in scheme.subtasks]
+    for first, second in scheme.ordering:
+        after[first].add(second)
+    for middle, beyond in enumerate(after):
+        for successors in after:
+            if middle in successors:
+                successors |= beyond
+    return after
+
+
+def _cut(scheme: Scheme, cut: _Cut, number: int) -> tuple[Scheme, Scheme]:
+    """Return the part that is cut off, and the scheme with a new task in its place."""
+    handed = tuple(parameter.name for parameter in scheme.parameters if parameter.name in cut.shared)
+    name = f"part {number} of {scheme.method.name if scheme.method and not scheme.is_part else scheme.task}"
+    place = {index: at for at, index in enumerate(cut.indices)}  # in the part
+    part = Scheme(
+        scheme.method,
+        name,
+        handed,
+        tuple(parameter for parameter in scheme.parameters if parameter.name in cut.own | cut.shared),
+        And(cut.moved),
+        tuple(scheme.subtasks[index] for index in cut.indices),
+        tuple((place[first], place[second]) for first, second in scheme.ordering if {first, second} <= place.keys()),
+        is_part=True,
+    )
+    first = cut.indices[0]
+    left = [index for index in range(len(scheme.subtasks)) if index == first or index not in place]
+    at = {index: left.index(first if index in place else index) for index in range(len(scheme.subtasks))}
+    after = _transitive(scheme)
+    rest = replace(
+        scheme,
+        parameters=tuple(parameter for parameter in scheme.parameters if parameter.name not in cut.own),
+        constraints=And(tuple(formula for formula in conjuncts(scheme.constraints) if formula not in cut.moved)),
+        subtasks=tuple(
+            SchemeSubtask(name, handed, None) if index == first else scheme.subtasks[index] for index in left
+        ),
+        ordering=tuple(
+            sorted({(at[one], at[two]) for one, beyond in enumerate(after) for two in beyond if at[one] != at[two]})
+        ),
+    )
+    return part, rest
 
 
 def _variables(subtask: SchemeSubtask) -> set[str]:
     return {argument for argument in subtask.arguments if argument.startswith("?")}
-
-
-def _own_variables(scheme: Scheme, free: set[str]) -> dict[int, set[str]]:
-    """Return by index of a subtask the variables on which nothing else depends, not even through constraints.
-
-    A constraint ties variables to each other, but for those that are given anyway: by the decomposed task, or since
-    several subtasks share them.
-    """
-    users: dict[str, list[int]] = {name: [] for name in free}
-    for index, subtask in enumerate(scheme.subtasks):
-        for name in _variables(subtask) & free:
-            users[name].append(index)
-    single = {name for name, indices in users.items() if len(indices) <= 1}
-    tied = [names for formula in conjuncts(scheme.constraints) if (names := set(free_variables(formula)) & single)]
-    own: dict[int, set[str]] = {}
-    while single:
-        group = {min(single)}
-        while grown := {name for names in tied if names & group for name in names} - group:
-            group |= grown
-        single -= group
-        indices = {index for name in group for index in users[name]}
-        if len(indices) == 1:
-            own.setdefault(indices.pop(), set()).update(group)
-    return own
