@@ -12,7 +12,7 @@
 
 #include "bindings.hpp"
 #include "python_limits.hpp"
-#include "relax/find_plans.hpp"
+#include "relax/search.hpp"
 #include "relax/state.hpp"
 #include "relax/tdg_bound.hpp"
 
@@ -68,7 +68,7 @@ relax::SearchResult find_plans(const relax::GroundProblem& problem, std::vector<
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::FindPlans(problem, std::move(costs), options, limits, statistics).run();
+    return relax::search(problem, std::move(costs), options, limits, statistics);
 }
 
 }  // namespace
@@ -102,6 +102,7 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)
         .def_rw("inherit_h", &relax::SearchOptions::inherit_h)
         .def_rw("ask_adaptively", &relax::SearchOptions::ask_adaptively)
+        .def_rw("skip_dead_methods", &relax::SearchOptions::skip_dead_methods)
         .def_rw("upper_bound", &relax::SearchOptions::upper_bound);
 
     nb::class_<relax::SearchStatistics>(module, "SearchStatistics")

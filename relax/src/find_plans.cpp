@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "relax/plan_trace.hpp"
 #include "relax/tdg_bound.hpp"
 
 namespace relax {
@@ -18,18 +19,6 @@ constexpr Cost kDeadEnd = kNoDecomposition;
 constexpr std::uint32_t kAnswerWindow = 32;
 constexpr std::uint32_t kLongestPause = 4096;
 
-SearchStatus status_of(StopReason reason) {
-    switch (reason) {
-        case StopReason::TimeLimit:
-            return SearchStatus::TimeLimit;
-        case StopReason::MemoryLimit:
-            return SearchStatus::MemoryLimit;
-        case StopReason::Interrupted:
-            break;
-    }
-    return SearchStatus::Interrupted;
-}
-
 }  // namespace
 
 FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
@@ -39,7 +28,7 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_)),
+      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods),
       heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)) {}
 
 SearchResult FindPlans::run() {
@@ -59,7 +48,7 @@ SearchResult FindPlans::run() {
     proven = std::max(proven, statistics_.lower_bound.value_or(0));
     result.is_stopped = stop.has_value();
     if (goal_) {
-        trace(*goal_, result);
+        trace_plan(problem_, costs_, progression_, nodes_, *goal_, result);
     }
     if (result.cost) {
         statistics_.best = result.cost;
@@ -87,7 +76,7 @@ std::optional<StopReason> FindPlans::search() {
         if (const auto stop = limits_.check()) {
             return stop;
         }
-        if (goal_ && (options_.algorithm == SearchAlgorithm::Greedy || open_.top().priority >= *statistics_.best)) {
+        if (goal_ && open_.top().priority >= *statistics_.best) {
             return std::nullopt;
         }
         const OpenList::Entry entry = open_.pop();
@@ -222,18 +211,11 @@ bool FindPlans::is_too_dear(const SearchNode& node) const {
 Cost FindPlans::priority(NodeId id) const {
     const SearchNode& node = nodes_[id];
     const Cost estimate = is_admissible(options_.heuristic) ? node.h : std::max(node.h, guides_[id]);
-    switch (options_.algorithm) {
-        case SearchAlgorithm::AStar:
-            return node.g + estimate;
-        case SearchAlgorithm::Weighted: {
-            const double weighted = std::ceil(options_.weight * static_cast<double>(estimate));
-            return add_bounds(node.g,
-                              weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
-        }
-        case SearchAlgorithm::Greedy:
-            break;
+    if (options_.algorithm == SearchAlgorithm::AStar) {
+        return node.g + estimate;
     }
-    return estimate;
+    const double weighted = std::ceil(options_.weight * static_cast<double>(estimate));
+    return add_bounds(node.g, weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
 }
 
 void FindPlans::push(NodeId id) {
@@ -251,45 +233,6 @@ Cost FindPlans::open_bound() const {
         }
     }
     return bound;
-}
-
-// Walk from the root to the goal once more and keep track of which task of the decomposition tree each occurrence is.
-void FindPlans::trace(NodeId goal, SearchResult& result) {
-    std::vector<SearchStep> steps;
-    for (NodeId id = goal; nodes_[id].parent != id; id = nodes_[id].parent) {
-        steps.push_back(nodes_[id].step());
-    }
-    std::reverse(steps.begin(), steps.end());
-
-    TaskNetworks& networks = progression_.networks();
-    NetworkId network = progression_.initial_network();
-    std::vector<std::uint32_t> tree_node{0};  // by occurrence
-    std::vector<std::uint32_t> next_tree_node;
-    std::vector<Origin> origins;
-    result.decomposition.push_back({problem_.initial_task, std::nullopt, std::nullopt, 0});
-    result.cost = 0;
-    for (const SearchStep& step : steps) {
-        const std::uint32_t here = tree_node[step.occurrence];
-        if (step.method) {
-            result.decomposition[here].method = step.method;
-            network = networks.decompose(network, step.occurrence, *step.method, &origins);
-        } else {
-            result.plan.push_back(here);
-            *result.cost += costs_[result.decomposition[here].task];
-            network = networks.progress(network, step.occurrence, &origins);
-        }
-        next_tree_node.clear();
-        for (const Origin& origin : origins) {
-            if (origin.is_subtask) {
-                next_tree_node.push_back(static_cast<std::uint32_t>(result.decomposition.size()));
-                const TaskId task = problem_.method_subtasks[*step.method][origin.index];
-                result.decomposition.push_back({task, std::nullopt, here, origin.index});
-            } else {
-                next_tree_node.push_back(tree_node[origin.index]);
-            }
-        }
-        tree_node.swap(next_tree_node);
-    }
 }
 
 }  // namespace relax

@@ -75,6 +75,7 @@ class Ff : private RelaxedPlan {
 public:
     Ff(const RelaxedModel& model, Limits& /*limits*/) : RelaxedPlan(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return ff(task); }
+    using RelaxedPlan::uses;
 };
 
 }  // namespace

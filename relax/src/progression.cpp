@@ -4,13 +4,38 @@
 
 namespace relax {
 
-Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds)
+namespace {
+
+std::optional<ActionId> first_action(const GroundProblem& problem, MethodId method) {
+    const auto subtasks = problem.method_subtasks[method];
+    std::vector<std::uint32_t> successors(subtasks.size(), 0);
+    for (const auto& [earlier, later] : problem.method_ordering[method]) {
+        ++successors[earlier];
+    }
+    for (std::size_t at = 0; at < subtasks.size(); ++at) {
+        if (successors[at] + 1 == subtasks.size() && problem.is_primitive(subtasks[at])) {
+            return subtasks[at];
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
+                         bool skip_dead_methods)
     : problem_(problem),
       costs_(std::move(costs)),
       transition_(problem),
       states_(transition_.word_count()),
       networks_(make_task_networks(problem, std::move(task_bounds))),
-      next_(transition_.word_count()) {}
+      next_(transition_.word_count()) {
+    if (skip_dead_methods) {
+        for (MethodId method = 0; method < problem.method_count(); ++method) {
+            first_action_.push_back(first_action(problem, method));
+        }
+    }
+}
 
 StateId Progression::initial_state() { return states_.intern(transition_.initial_state()); }
 
@@ -19,7 +44,12 @@ void Progression::expand(StateId state, NetworkId network, std::vector<Successor
     unconstrained_.clear();
     networks_->unconstrained(network, unconstrained_);
     if (const auto compound = compound_to_decompose()) {
+        const bool comes_next = !first_action_.empty() && unconstrained_.size() == 1;
         for (const MethodId method : problem_.methods_of(compound->task)) {
+            if (comes_next && first_action_[method] &&
+                !transition_.is_applicable(*first_action_[method], states_[state])) {
+                continue;
+            }
             const NetworkId next = networks_->decompose(network, compound->index, method);
             successors.push_back({state, next, 0, {compound->index, method}});
         }

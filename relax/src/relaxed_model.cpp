@@ -59,13 +59,15 @@ RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> c
     if (methods_are_free) {
         owner_cost.push_back(0);
     }
+    method_operator.resize(problem.method_count());
     const auto first_method = static_cast<OwnerId>(problem.action_count());
     for (ActionId action = 0; action < problem.action_count(); ++action) {
         add_action(problem, action);
     }
     for (TaskId task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
         for (const MethodId method : problem.methods_of(task)) {
-            task_operators.push(static_cast<OperatorId>(owner.size()));
+            method_operator[method] = static_cast<OperatorId>(owner.size());
+            task_operators.push(method_operator[method]);
             add_method(problem, method, methods_are_free ? first_method : first_method + method);
         }
         task_operators.finish_row();

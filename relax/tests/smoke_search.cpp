@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "relax/find_plans.hpp"
+#include "relax/search.hpp"
 
 namespace {
 
@@ -95,7 +95,7 @@ bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm 
     options.weight = 2.0;
     relax::Limits limits;
     relax::SearchStatistics statistics;
-    const relax::SearchResult result = relax::FindPlans(problem, {3, 5, 4}, options, limits, statistics).run();
+    const relax::SearchResult result = relax::search(problem, {3, 5, 4}, options, limits, statistics);
     const bool optimal = result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{15};
     const bool promises_nothing = algorithm != relax::SearchAlgorithm::AStar || !relax::is_admissible(heuristic);
     const bool solved = promises_nothing && result.cost && *result.cost >= 15;

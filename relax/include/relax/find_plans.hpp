@@ -14,22 +14,11 @@
 #include "relax/open_list.hpp"
 #include "relax/progression.hpp"
 #include "relax/search_node.hpp"
+#include "relax/search_options.hpp"
 #include "relax/search_result.hpp"
 #include "relax/segmented_array.hpp"
 
 namespace relax {
-
-enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy };
-
-struct SearchOptions {
-    HeuristicKind heuristic = HeuristicKind::LmCut;
-    SearchAlgorithm algorithm = SearchAlgorithm::AStar;
-    double weight = 1.0;              // of h, for Weighted; at least 1
-    bool use_tdg_bound = true;        // bound nodes by the decomposition graph before the heuristic is asked
-    bool inherit_h = true;            // a node's h is at least its parent's less the cost of the step
-    bool ask_adaptively = true;       // ask an admissible heuristic rarely while it tells no more than the cheap bound
-    std::optional<Cost> upper_bound;  // only plans that cost less are wanted
-};
 
 // FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower
 // bound until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristic is
@@ -59,7 +48,6 @@ private:
     bool is_too_dear(const SearchNode& node) const;
     void push(NodeId id);
     Cost open_bound() const;
-    void trace(NodeId goal, SearchResult& result);
 
     const GroundProblem& problem_;
     std::vector<Cost> costs_;

@@ -30,6 +30,8 @@ public:
 
     // Estimate the cost that is still to come; nothing where the node is a dead end.
     virtual std::optional<Cost> evaluate(const NodeView& node) = 0;
+    // Whether the latest evaluation's relaxed plan uses the method, if there is one.
+    virtual bool is_preferred(MethodId /*method*/) const { return false; }
 };
 
 // `costs`: by ActionId. All kinds say dead end only where it is true. When a limit is reached, an evaluation may end

@@ -20,6 +20,13 @@ public:
         return classical_.run(task_);
     }
 
+    bool is_preferred(MethodId method) const override {
+        if constexpr (requires { classical_.uses(OperatorId{}); }) {
+            return classical_.uses(model_.method_operator[method]);
+        }
+        return false;
+    }
+
 private:
     RelaxedModel model_;
     RelaxedTask task_;

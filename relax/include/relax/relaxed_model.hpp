@@ -47,6 +47,7 @@ public:
     // By TaskId: an action's operators, or a compound task's methods. By operator of a method: its distinct subtasks.
     Rows<OperatorId> task_operators;
     Rows<TaskId> operator_subtasks;
+    std::vector<OperatorId> method_operator;  // by MethodId
     // By OwnerId.
     std::vector<Cost> owner_cost;
     Rows<OperatorId> owner_operators;

@@ -24,6 +24,8 @@ public:
     std::optional<Cost> add(const RelaxedTask& task);
     // Returns the weight of the relaxed plan, or nothing where a goal is out of reach.
     std::optional<Cost> ff(const RelaxedTask& task);
+    // Whether the latest relaxed plan contains the operator.
+    bool uses(OperatorId op) const { return in_plan_[op] == epoch_; }
 
 private:
     struct FactState {

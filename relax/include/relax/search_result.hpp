@@ -6,10 +6,24 @@
 #include <vector>
 
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax {
 
 enum class SearchStatus : std::uint8_t { Optimal, Solved, Unsolvable, TimeLimit, MemoryLimit, Interrupted };
+
+// How a search without a plan ends that was stopped.
+constexpr SearchStatus status_of(StopReason reason) {
+    switch (reason) {
+        case StopReason::TimeLimit:
+            return SearchStatus::TimeLimit;
+        case StopReason::MemoryLimit:
+            return SearchStatus::MemoryLimit;
+        case StopReason::Interrupted:
+            break;
+    }
+    return SearchStatus::Interrupted;
+}
 
 struct SearchStatistics {
     std::uint64_t expanded = 0;

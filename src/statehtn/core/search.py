@@ -63,6 +63,8 @@ class SearchSwitches:
     """A node's h is at least its parent's less the cost of the step between them."""
     adaptive: bool = True
     """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
+    skip_dead_methods: bool = True
+    """Leave out methods whose first task would come next and cannot be executed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +129,7 @@ def find_plans(
         options.use_tdg_bound = switches.tdg_bound
         options.inherit_h = switches.inherit_h
         options.ask_adaptively = switches.adaptive
+        options.skip_dead_methods = switches.skip_dead_methods
         if run.stage(options):
             break
     return run.outcome()

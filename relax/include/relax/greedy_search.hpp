@@ -1,0 +1,62 @@
+#ifndef RELAX_GREEDY_SEARCH_HPP
+#define RELAX_GREEDY_SEARCH_HPP
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "relax/ground_problem.hpp"
+#include "relax/heuristic.hpp"
+#include "relax/ids.hpp"
+#include "relax/limits.hpp"
+#include "relax/open_list.hpp"
+#include "relax/progression.hpp"
+#include "relax/search_node.hpp"
+#include "relax/search_options.hpp"
+#include "relax/search_result.hpp"
+
+namespace relax {
+
+// Lazy greedy best-first search with preferred successors (Richter and Westphal, "The LAMA planner", 2010), for a plan
+// soon and not for its cost. A node is evaluated when it is popped, and its successors wait with its estimate. Methods
+// of the heuristic's relaxed plan wait in a list of their own, too, which has its turn more often as long as that makes
+// progress.
+//
+// A node with a single successor is nothing to decide: the search goes through it without asking the heuristic.
+class GreedySearch {
+public:
+    GreedySearch(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+                 SearchStatistics& statistics);
+
+    SearchResult run();
+
+private:
+    std::optional<StopReason> search();
+    OpenList& next_list();
+    std::optional<NodeId> follow(NodeId node);
+    std::optional<Cost> evaluate(NodeId node);
+    std::optional<NodeId> generate(NodeId parent, const Successor& successor);
+    void push_successors(NodeId parent, Cost h);
+
+    const GroundProblem& problem_;
+    std::vector<Cost> costs_;
+    SearchOptions options_;
+    Limits& limits_;
+    SearchStatistics& statistics_;
+    Progression progression_;
+    std::unique_ptr<Heuristic> heuristic_;
+    DuplicateRegistry nodes_;
+    OpenList open_;
+    OpenList preferred_;
+    std::int64_t turns_ = 0;            // of the open list
+    std::int64_t preferred_turns_ = 0;  // of the list of preferred successors, less what it has earned
+    std::optional<Cost> least_h_;
+    std::optional<NodeId> goal_;
+    std::vector<Successor> successors_;
+    std::vector<TaskId> tasks_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,19 @@
+#ifndef RELAX_PLAN_TRACE_HPP
+#define RELAX_PLAN_TRACE_HPP
+
+#include <span>
+
+#include "relax/ground_problem.hpp"
+#include "relax/progression.hpp"
+#include "relax/search_node.hpp"
+#include "relax/search_result.hpp"
+
+namespace relax {
+
+// Write the plan that leads to the goal node, its cost and its decomposition tree. `costs`: by ActionId.
+void trace_plan(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
+                const DuplicateRegistry& nodes, NodeId goal, SearchResult& result);
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef RELAX_SEARCH_OPTIONS_HPP
+#define RELAX_SEARCH_OPTIONS_HPP
+
+#include <cstdint>
+#include <optional>
+
+#include "relax/heuristic.hpp"
+#include "relax/ids.hpp"
+
+namespace relax {
+
+enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy };
+
+struct SearchOptions {
+    HeuristicKind heuristic = HeuristicKind::LmCut;
+    SearchAlgorithm algorithm = SearchAlgorithm::AStar;
+    double weight = 1.0;              // of h, for Weighted; at least 1
+    bool use_tdg_bound = true;        // bound nodes by the decomposition graph before the heuristic is asked
+    bool inherit_h = true;            // a node's h is at least its parent's less the cost of the step
+    bool ask_adaptively = true;       // ask an admissible heuristic rarely while it tells no more than the cheap bound
+    bool skip_dead_methods = true;    // leave out methods whose first task cannot be executed where it would come next
+    std::optional<Cost> upper_bound;  // only plans that cost less are wanted
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,174 @@
+#include "relax/greedy_search.hpp"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "relax/plan_trace.hpp"
+#include "relax/tdg_bound.hpp"
+
+namespace relax {
+
+namespace {
+
+constexpr std::int64_t kTurnsEarned = 1000;   // by preferred successors, whenever h falls below all before
+constexpr std::uint32_t kLongestWalk = 1000;  // through nodes with a single successor: networks may grow for ever
+
+}  // namespace
+
+GreedySearch::GreedySearch(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
+                           Limits& limits, SearchStatistics& statistics)
+    : problem_(problem),
+      costs_(std::move(costs)),
+      options_(options),
+      limits_(limits),
+      statistics_(statistics),
+      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods),
+      heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)) {}
+
+SearchResult GreedySearch::run() {
+    SearchResult result;
+    if (!problem_.solvable) {
+        return result;
+    }
+    std::optional<StopReason> stop;
+    try {
+        stop = search();
+    } catch (const std::bad_alloc&) {
+        stop = StopReason::MemoryLimit;
+    }
+    // All that is proven is what the root's bound says.
+    Cost proven = progression_.networks().bound(progression_.initial_network());
+    result.is_stopped = stop.has_value();
+    if (goal_) {
+        trace_plan(problem_, costs_, progression_, nodes_, *goal_, result);
+        statistics_.best = result.cost;
+        result.status = proven >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
+        statistics_.lower_bound = std::min(proven, *result.cost);
+    } else if (stop) {
+        result.status = status_of(*stop);
+        statistics_.lower_bound = proven;
+    } else {
+        result.status = SearchStatus::Unsolvable;
+    }
+    result.statistics = statistics_;
+    return result;
+}
+
+// Search until a plan is found or nothing is open. Says why it stopped before that.
+std::optional<StopReason> GreedySearch::search() {
+    open_.push(nodes_.add(progression_.initial_state(), progression_.initial_network()), 0, 0, 1);
+    while (!open_.is_empty() || !preferred_.is_empty()) {
+        if (const auto stop = limits_.check()) {
+            return stop;
+        }
+        const NodeId popped = next_list().pop().node;
+        if (nodes_[popped].is_expanded) {
+            continue;
+        }
+        const auto node = follow(popped);
+        if (goal_) {
+            return std::nullopt;
+        }
+        if (!node) {
+            continue;
+        }
+        const auto h = evaluate(*node);
+        if (!h) {
+            ++statistics_.dead_ends;
+            continue;
+        }
+        if (!least_h_ || *h < *least_h_) {
+            least_h_ = h;
+            preferred_turns_ -= kTurnsEarned;
+        }
+        push_successors(*node, *h);
+        if (goal_) {
+            return std::nullopt;
+        }
+    }
+    return std::nullopt;
+}
+
+// The lists take turns.
+OpenList& GreedySearch::next_list() {
+    if (open_.is_empty() || (!preferred_.is_empty() && preferred_turns_ <= turns_)) {
+        ++preferred_turns_;
+        return preferred_;
+    }
+    ++turns_;
+    return open_;
+}
+
+// Expand the node and go on as long as there is a single successor. Returns the node where there are several, which
+// are then in `successors_`; nothing where the walk ends at a dead end, at a node that is known, or at a goal.
+std::optional<NodeId> GreedySearch::follow(NodeId node) {
+    for (std::uint32_t steps = 0;; ++steps) {
+        nodes_[node].is_expanded = true;
+        ++statistics_.expanded;
+        progression_.expand(nodes_[node].state, nodes_[node].network, successors_);
+        if (successors_.size() > 1 || (successors_.size() == 1 && steps == kLongestWalk)) {
+            return node;
+        }
+        if (successors_.empty()) {
+            return std::nullopt;
+        }
+        const auto next = generate(node, successors_.front());
+        if (!next || nodes_[*next].is_expanded || goal_) {
+            return std::nullopt;
+        }
+        node = *next;
+    }
+}
+
+std::optional<Cost> GreedySearch::evaluate(NodeId id) {
+    const SearchNode& node = nodes_[id];
+    tasks_.clear();
+    progression_.networks().tasks(node.network, tasks_);
+    ++statistics_.evaluated;
+    return heuristic_->evaluate(
+        {progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
+}
+
+// Returns the successor's node, unless it is known or too dear. A network without tasks is the goal.
+std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& successor) {
+    ++statistics_.generated;
+    if (nodes_.find(successor.state, successor.network)) {
+        return std::nullopt;
+    }
+    const Cost g = nodes_[parent].g + successor.cost;
+    if (g >= kNoDecomposition) {
+        throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
+    }
+    if (options_.upper_bound &&
+        add_bounds(g, progression_.networks().bound(successor.network)) >= *options_.upper_bound) {
+        return std::nullopt;
+    }
+    const NodeId id = nodes_.add(successor.state, successor.network);
+    nodes_[id].reach(parent, g, successor.step);
+    if (progression_.networks().is_empty(successor.network)) {
+        goal_ = id;
+    }
+    return id;
+}
+
+void GreedySearch::push_successors(NodeId parent, Cost h) {
+    for (const Successor& successor : successors_) {
+        const auto id = generate(parent, successor);
+        if (goal_) {
+            return;
+        }
+        if (!id) {
+            continue;
+        }
+        const Cost bound = progression_.networks().bound(successor.network);
+        const std::uint32_t size = progression_.networks().size(successor.network);
+        open_.push(*id, h, bound, size);
+        if (!successor.step.method || heuristic_->is_preferred(*successor.step.method)) {
+            preferred_.push(*id, h, bound, size);
+        }
+    }
+}
+
+}  // namespace relax

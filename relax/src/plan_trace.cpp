@@ -1,0 +1,48 @@
+#include "relax/plan_trace.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace relax {
+
+// Walk from the root to the goal once more and keep track of which task of the decomposition tree each occurrence is.
+void trace_plan(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
+                const DuplicateRegistry& nodes, NodeId goal, SearchResult& result) {
+    std::vector<SearchStep> steps;
+    for (NodeId id = goal; nodes[id].parent != id; id = nodes[id].parent) {
+        steps.push_back(nodes[id].step());
+    }
+    std::reverse(steps.begin(), steps.end());
+
+    TaskNetworks& networks = progression.networks();
+    NetworkId network = progression.initial_network();
+    std::vector<std::uint32_t> tree_node{0};  // by occurrence
+    std::vector<std::uint32_t> next_tree_node;
+    std::vector<Origin> origins;
+    result.decomposition.push_back({problem.initial_task, std::nullopt, std::nullopt, 0});
+    result.cost = 0;
+    for (const SearchStep& step : steps) {
+        const std::uint32_t here = tree_node[step.occurrence];
+        if (step.method) {
+            result.decomposition[here].method = step.method;
+            network = networks.decompose(network, step.occurrence, *step.method, &origins);
+        } else {
+            result.plan.push_back(here);
+            *result.cost += costs[result.decomposition[here].task];
+            network = networks.progress(network, step.occurrence, &origins);
+        }
+        next_tree_node.clear();
+        for (const Origin& origin : origins) {
+            if (origin.is_subtask) {
+                next_tree_node.push_back(static_cast<std::uint32_t>(result.decomposition.size()));
+                const TaskId task = problem.method_subtasks[*step.method][origin.index];
+                result.decomposition.push_back({task, std::nullopt, here, origin.index});
+            } else {
+                next_tree_node.push_back(tree_node[origin.index]);
+            }
+        }
+        tree_node.swap(next_tree_node);
+    }
+}
+
+}  // namespace relax

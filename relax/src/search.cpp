@@ -1,0 +1,18 @@
+#include "relax/search.hpp"
+
+#include <utility>
+
+#include "relax/find_plans.hpp"
+#include "relax/greedy_search.hpp"
+
+namespace relax {
+
+SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+                    SearchStatistics& statistics) {
+    if (options.algorithm == SearchAlgorithm::Greedy) {
+        return GreedySearch(problem, std::move(costs), options, limits, statistics).run();
+    }
+    return FindPlans(problem, std::move(costs), options, limits, statistics).run();
+}
+
+}  // namespace relax
