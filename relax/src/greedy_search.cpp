@@ -12,8 +12,9 @@ namespace relax {
 
 namespace {
 
-constexpr std::int64_t kTurnsEarned = 1000;   // by preferred successors, whenever h falls below all before
-constexpr std::uint32_t kLongestWalk = 1000;  // through nodes with a single successor: networks may grow for ever
+constexpr std::int64_t kTurnsEarned = 1000;      // by preferred successors, whenever h falls below all before
+constexpr std::uint32_t kLongestWalk = 1000;     // through nodes with a single successor: networks may grow for ever
+constexpr std::uint64_t kMoreEvaluations = 200;  // after the first plan, besides as many as it took
 
 }  // namespace
 
@@ -56,24 +57,22 @@ SearchResult GreedySearch::run() {
     return result;
 }
 
-// Search until a plan is found or nothing is open. Says why it stopped before that.
+// Search until there is a plan and time for it is up, or nothing is open. Says why it stopped before that.
 std::optional<StopReason> GreedySearch::search() {
     open_.push(nodes_.add(progression_.initial_state(), progression_.initial_network()), 0, 0, 1);
-    while (!open_.is_empty() || !preferred_.is_empty()) {
+    while ((!open_.is_empty() || !preferred_.is_empty()) && statistics_.evaluated < most_evaluations_) {
         if (const auto stop = limits_.check()) {
             return stop;
         }
-        const NodeId popped = next_list().pop().node;
+        const NodeId popped = pop();
         if (nodes_[popped].is_expanded) {
             continue;
         }
         const auto node = follow(popped);
-        if (goal_) {
-            return std::nullopt;
-        }
         if (!node) {
             continue;
         }
+        explores_ = !explores_;
         const auto h = evaluate(*node);
         if (!h) {
             ++statistics_.dead_ends;
@@ -84,21 +83,21 @@ std::optional<StopReason> GreedySearch::search() {
             preferred_turns_ -= kTurnsEarned;
         }
         push_successors(*node, *h);
-        if (goal_) {
-            return std::nullopt;
-        }
     }
     return std::nullopt;
 }
 
 // The lists take turns.
-OpenList& GreedySearch::next_list() {
+NodeId GreedySearch::pop() {
+    if (explores_ && !types_.is_empty()) {
+        return types_.pop();
+    }
     if (open_.is_empty() || (!preferred_.is_empty() && preferred_turns_ <= turns_)) {
         ++preferred_turns_;
-        return preferred_;
+        return preferred_.pop().node;
     }
     ++turns_;
-    return open_;
+    return open_.pop().node;
 }
 
 // Expand the node and go on as long as there is a single successor. Returns the node where there are several, which
@@ -115,7 +114,7 @@ std::optional<NodeId> GreedySearch::follow(NodeId node) {
             return std::nullopt;
         }
         const auto next = generate(node, successors_.front());
-        if (!next || nodes_[*next].is_expanded || goal_) {
+        if (!next) {
             return std::nullopt;
         }
         node = *next;
@@ -131,15 +130,20 @@ std::optional<Cost> GreedySearch::evaluate(NodeId id) {
         {progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
 }
 
-// Returns the successor's node, unless it is known or too dear. A network without tasks is the goal.
+// Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.
 std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
-    if (nodes_.find(successor.state, successor.network)) {
-        return std::nullopt;
-    }
     const Cost g = nodes_[parent].g + successor.cost;
     if (g >= kNoDecomposition) {
         throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
+    }
+    if (const auto known = nodes_.find(successor.state, successor.network)) {
+        if (g < nodes_[*known].g) {  // a cheaper way; what comes after it need not be seen again
+            const bool is_expanded = nodes_[*known].is_expanded;
+            nodes_[*known].reach(parent, g, successor.step);
+            nodes_[*known].is_expanded = is_expanded;
+        }
+        return std::nullopt;
     }
     if (options_.upper_bound &&
         add_bounds(g, progression_.networks().bound(successor.network)) >= *options_.upper_bound) {
@@ -148,7 +152,13 @@ std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& suc
     const NodeId id = nodes_.add(successor.state, successor.network);
     nodes_[id].reach(parent, g, successor.step);
     if (progression_.networks().is_empty(successor.network)) {
+        if (!goal_) {
+            most_evaluations_ = 2 * statistics_.evaluated + kMoreEvaluations;
+        }
         goal_ = id;
+        options_.upper_bound = g;
+        statistics_.best = g;
+        return std::nullopt;
     }
     return id;
 }
@@ -156,17 +166,14 @@ std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& suc
 void GreedySearch::push_successors(NodeId parent, Cost h) {
     for (const Successor& successor : successors_) {
         const auto id = generate(parent, successor);
-        if (goal_) {
-            return;
-        }
         if (!id) {
             continue;
         }
-        const Cost bound = progression_.networks().bound(successor.network);
         const std::uint32_t size = progression_.networks().size(successor.network);
-        open_.push(*id, h, bound, size);
+        open_.push(*id, h, size, size);
+        types_.push(*id, h, nodes_[*id].g);
         if (!successor.step.method || heuristic_->is_preferred(*successor.step.method)) {
-            preferred_.push(*id, h, bound, size);
+            preferred_.push(*id, h, size, size);
         }
     }
 }

@@ -27,6 +27,8 @@ public:
 // The max heuristic with the costs of the model, as LM-cut has it with costs that it lowers.
 class PricedHMax {
 public:
+    static constexpr bool kReadsOperators = true;
+
     PricedHMax(const RelaxedModel& model, Limits& /*limits*/) : model_(model), hmax_(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return hmax_.run(task, model_.owner_cost); }
 
@@ -67,15 +69,19 @@ private:
 
 class Additive : private RelaxedPlan {
 public:
+    using RelaxedPlan::kReadsOperators;
+
     Additive(const RelaxedModel& model, Limits& /*limits*/) : RelaxedPlan(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return add(task); }
 };
 
 class Ff : private RelaxedPlan {
 public:
+    using RelaxedPlan::kReadsOperators;
+    using RelaxedPlan::uses;
+
     Ff(const RelaxedModel& model, Limits& /*limits*/) : RelaxedPlan(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return ff(task); }
-    using RelaxedPlan::uses;
 };
 
 }  // namespace

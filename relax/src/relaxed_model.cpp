@@ -94,6 +94,7 @@ void RelaxedModel::add_action(const GroundProblem& problem, ActionId action) {
         adds.add_row(adds_of_it);
         task_operators.push(static_cast<OperatorId>(owner.size()));
         owner.push_back(action);
+        operator_task.push_back(action);
         operator_subtasks.finish_row();
     };
     for (EffectId effect = problem.effect_begin[action]; effect < problem.effect_begin[action + 1]; ++effect) {
@@ -139,6 +140,7 @@ void RelaxedModel::add_method(const GroundProblem& problem, MethodId method, Own
     adds.push(reached(problem.method_task[method]));
     adds.finish_row();
     owner.push_back(owner_of_it);
+    operator_task.push_back(problem.method_task[method]);
 }
 
 void RelaxedModel::index() {
@@ -177,7 +179,9 @@ void RelaxedTask::set(std::span<const std::uint64_t> state, std::span<const Task
         const TaskId task = pending_.back();
         pending_.pop_back();
         for (const OperatorId op : model_.task_operators[task]) {
-            operators_.push_back(op);
+            if (lists_operators_) {
+                operators_.push_back(op);
+            }
             for (const TaskId subtask : model_.operator_subtasks[op]) {
                 reach(subtask);
             }

@@ -2,6 +2,7 @@
 #define RELAX_GREEDY_SEARCH_HPP
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,15 +16,17 @@
 #include "relax/search_node.hpp"
 #include "relax/search_options.hpp"
 #include "relax/search_result.hpp"
+#include "relax/type_based_list.hpp"
 
 namespace relax {
 
 // Lazy greedy best-first search with preferred successors (Richter and Westphal, "The LAMA planner", 2010), for a plan
 // soon and not for its cost. A node is evaluated when it is popped, and its successors wait with its estimate. Methods
 // of the heuristic's relaxed plan wait in a list of their own, too, which has its turn more often as long as that makes
-// progress.
+// progress. Every other node is taken from the type-based list, which leads out of plateaus.
 //
-// A node with a single successor is nothing to decide: the search goes through it without asking the heuristic.
+// A node with a single successor is nothing to decide: the search goes through it without asking the heuristic. Once it
+// has a plan, it goes on for as long as that took, for a cheaper one.
 class GreedySearch {
 public:
     GreedySearch(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
@@ -33,7 +36,7 @@ public:
 
 private:
     std::optional<StopReason> search();
-    OpenList& next_list();
+    NodeId pop();
     std::optional<NodeId> follow(NodeId node);
     std::optional<Cost> evaluate(NodeId node);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
@@ -49,10 +52,13 @@ private:
     DuplicateRegistry nodes_;
     OpenList open_;
     OpenList preferred_;
+    TypeBasedList types_;
     std::int64_t turns_ = 0;            // of the open list
     std::int64_t preferred_turns_ = 0;  // of the list of preferred successors, less what it has earned
+    bool explores_ = false;             // the next node comes from the type-based list
     std::optional<Cost> least_h_;
-    std::optional<NodeId> goal_;
+    std::optional<NodeId> goal_;  // of the cheapest plan so far
+    std::uint64_t most_evaluations_ = std::numeric_limits<std::uint64_t>::max();
     std::vector<Successor> successors_;
     std::vector<TaskId> tasks_;
 };

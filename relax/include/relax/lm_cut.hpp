@@ -21,6 +21,8 @@ public:
 
     // Returns a lower bound of the cost of any plan of the relaxed task, or nothing where there is none. A limit ends
     // the rounds early, with a lower bound all the same.
+    static constexpr bool kReadsOperators = true;
+
     std::optional<Cost> run(const RelaxedTask& task);
 
 private:

@@ -13,7 +13,9 @@ class RcHeuristic final : public Heuristic {
 public:
     RcHeuristic(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits,
                 std::span<const Cost> method_costs = {})
-        : model_(problem, costs, method_costs), task_(model_), classical_(model_, limits) {}
+        : model_(problem, costs, method_costs),
+          task_(model_, ClassicalHeuristic::kReadsOperators),
+          classical_(model_, limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         task_.set(node.state, node.tasks);

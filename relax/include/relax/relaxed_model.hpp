@@ -48,6 +48,7 @@ public:
     Rows<OperatorId> task_operators;
     Rows<TaskId> operator_subtasks;
     std::vector<OperatorId> method_operator;  // by MethodId
+    std::vector<TaskId> operator_task;        // by OperatorId: the action, or the task of the method
     // By OwnerId.
     std::vector<Cost> owner_cost;
     Rows<OperatorId> owner_operators;
@@ -67,7 +68,9 @@ private:
 // What of the relaxed model a search node sees: its facts, its goals, and the operators reachable from its network.
 class RelaxedTask {
 public:
-    explicit RelaxedTask(const RelaxedModel& model) : model_(model), seen_(model.task_operators.size(), 0) {}
+    // `lists_operators`: whether `operators` is asked for, which takes a while on large problems.
+    RelaxedTask(const RelaxedModel& model, bool lists_operators)
+        : model_(model), lists_operators_(lists_operators), seen_(model.task_operators.size(), 0) {}
 
     // `state`: bits by FactId in words of 64; `tasks`: of the network, repetitions allowed.
     void set(std::span<const std::uint64_t> state, std::span<const TaskId> tasks);
@@ -76,11 +79,13 @@ public:
     std::span<const RelaxedFact> facts() const { return facts_; }
     std::span<const RelaxedFact> goals() const { return goals_; }
     std::span<const OperatorId> operators() const { return operators_; }
+    bool is_reachable(OperatorId op) const { return seen_[model_.operator_task[op]] == epoch_; }
 
 private:
     void reach(TaskId task);
 
     const RelaxedModel& model_;
+    bool lists_operators_;
     std::vector<RelaxedFact> facts_;
     std::vector<RelaxedFact> goals_;
     std::vector<OperatorId> operators_;

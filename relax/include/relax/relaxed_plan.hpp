@@ -15,9 +15,12 @@ namespace relax {
 // relaxed plan made of the additive heuristic's cheapest achievers.
 //
 // What they estimate is how much is left to do: an operator weighs its cost and the mean cost of an action besides, so
-// that decompositions, which are free, count as well.
+// that decompositions, which are free, count as well. A relaxed plan does everything once; FF adds the least weight of
+// a decomposition for every repetition of a task in the network, and says at least what decompositions weigh together.
 class RelaxedPlan {
 public:
+    static constexpr bool kReadsOperators = false;
+
     explicit RelaxedPlan(const RelaxedModel& model);
 
     // Returns the additive estimate, or nothing where a goal is out of reach.
@@ -34,7 +37,7 @@ private:
         std::uint32_t epoch;
     };
     struct OperatorState {
-        Cost cost;              // sum over the preconditions reached so far
+        Cost cost;              // its weight, and the costs of the preconditions reached so far
         std::uint32_t missing;  // preconditions not yet reached
         std::uint32_t epoch;
     };
@@ -42,15 +45,20 @@ private:
     static constexpr OperatorId kGiven = static_cast<OperatorId>(-1);
 
     void offer(RelaxedFact fact, Cost cost, OperatorId achiever);
-    Cost weight(OperatorId op) const { return model_.owner_cost[model_.owner[op]] + step_; }
+    void weigh_tasks();
+    Cost goal_costs(const RelaxedTask& task) const;
+    Cost extract_plan(const RelaxedTask& task);
 
     const RelaxedModel& model_;
-    Cost step_ = 1;
+    std::vector<Cost> weight_;                  // by OperatorId
+    std::vector<std::uint32_t> preconditions_;  // by OperatorId: how many
+    std::vector<Cost> least_weight_;            // by TaskId: of a decomposition
     std::vector<FactState> facts_;
     std::vector<OperatorState> operators_;
     std::vector<std::uint32_t> in_plan_;  // by OperatorId: the epoch in which the relaxed plan used it
     std::vector<std::uint32_t> wanted_;   // by RelaxedFact: the epoch in which the relaxed plan needed it
     std::vector<RelaxedFact> pending_;
+    std::vector<RelaxedFact> goals_;
     std::vector<QueueEntry> queue_;
     std::uint32_t epoch_ = 0;
 };
