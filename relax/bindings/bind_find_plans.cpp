@@ -90,6 +90,7 @@ void bind_find_plans(nb::module_& module) {
         .value("Optimal", relax::SearchStatus::Optimal)
         .value("Solved", relax::SearchStatus::Solved)
         .value("Unsolvable", relax::SearchStatus::Unsolvable)
+        .value("GaveUp", relax::SearchStatus::GaveUp)
         .value("TimeLimit", relax::SearchStatus::TimeLimit)
         .value("MemoryLimit", relax::SearchStatus::MemoryLimit)
         .value("Interrupted", relax::SearchStatus::Interrupted);
@@ -103,7 +104,8 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("inherit_h", &relax::SearchOptions::inherit_h)
         .def_rw("ask_adaptively", &relax::SearchOptions::ask_adaptively)
         .def_rw("skip_dead_methods", &relax::SearchOptions::skip_dead_methods)
-        .def_rw("upper_bound", &relax::SearchOptions::upper_bound);
+        .def_rw("upper_bound", &relax::SearchOptions::upper_bound)
+        .def_rw("most_evaluations", &relax::SearchOptions::most_evaluations);
 
     nb::class_<relax::SearchStatistics>(module, "SearchStatistics")
         .def_ro("expanded", &relax::SearchStatistics::expanded)

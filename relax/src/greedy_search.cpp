@@ -1,6 +1,7 @@
 #include "relax/greedy_search.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -26,7 +27,8 @@ GreedySearch::GreedySearch(const GroundProblem& problem, std::vector<Cost> costs
       limits_(limits),
       statistics_(statistics),
       progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods),
-      heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)) {}
+      heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)),
+      most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
 
 SearchResult GreedySearch::run() {
     SearchResult result;
@@ -49,6 +51,9 @@ SearchResult GreedySearch::run() {
         statistics_.lower_bound = std::min(proven, *result.cost);
     } else if (stop) {
         result.status = status_of(*stop);
+        statistics_.lower_bound = proven;
+    } else if (statistics_.evaluated >= most_evaluations_) {
+        result.status = SearchStatus::GaveUp;
         statistics_.lower_bound = proven;
     } else {
         result.status = SearchStatus::Unsolvable;

@@ -64,7 +64,8 @@ GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& opti
     if (!graph.is_node_alive[graph.initial]) {
         return unsolvable();
     }
-    return assemble({knowledge, graph, cases, expander.fact_begin(), is_initially_true, is_literal_reached, options});
+    return assemble(
+        {knowledge, graph, cases, expander.fact_begin(), is_initially_true, is_literal_reached, options, limits});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "grounder_composition.hpp"
+#include "grounder_stop.hpp"
 
 namespace relax::grounding {
 
@@ -23,7 +24,7 @@ public:
 
     GroundProblem run() {
         find_cases();
-        composition_.emplace(lifted(), remains_.graph, is_void_, stands_for_, remains_.options);
+        composition_.emplace(lifted(), remains_.graph, is_void_, stands_for_, remains_.options, remains_.limits);
         number_facts();
         write_actions();
         write_compounds();
@@ -41,6 +42,7 @@ private:
     void for_each_living_node(std::uint32_t task, Visit visit) {
         for (NodeId node = remains_.graph.task_begin[task]; node < remains_.graph.task_begin[task + 1]; ++node) {
             if (remains_.graph.is_node_alive[node]) {
+                check(remains_.limits);
                 visit(node);
             }
         }
@@ -147,6 +149,7 @@ private:
         problem_.method_part_begin.push_back(0);
         for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
             if (graph.is_method_alive[method] && composition_->is_kept(graph.method_task[method])) {
+                check(remains_.limits);
                 problem_.method_task.push_back(*task_of_node_[graph.method_task[method]]);
                 write_network(composition_->compose(method));
             }

@@ -9,6 +9,7 @@
 #include "grounder_task_graph.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/grounder.hpp"
+#include "relax/limits.hpp"
 
 namespace relax::grounding {
 
@@ -21,6 +22,7 @@ struct Remains {
     const std::vector<bool>& is_initially_true;    // by fact
     const std::vector<bool>& is_literal_reached;
     const GroundingOptions& options;
+    Limits& limits;
 };
 
 // Write the ground problem: literals that are always true vanish, and so do

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "grounder_stop.hpp"
+
 namespace relax::grounding {
 
 namespace {
@@ -49,20 +51,20 @@ Ordering transitive_closure(const LiftedMethod& method) {
 }  // namespace
 
 Composition::Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_void,
-                         const std::vector<NodeId>& stands_for, const GroundingOptions& options)
+                         const std::vector<NodeId>& stands_for, const GroundingOptions& options, Limits& limits)
     : graph_(graph), is_void_(is_void), stands_for_(stands_for), is_replaced_(graph.is_node_alive.size(), false) {
     for (const LiftedMethod& method : lifted.methods) {
         orderings_.push_back(transitive_closure(method));
     }
     if (options.merge_equal) {
-        drop_equal_methods();
+        drop_equal_methods(limits);
     }
     if (options.replace_single_methods) {
-        choose_replaced();
+        choose_replaced(limits);
     }
 }
 
-void Composition::drop_equal_methods() {
+void Composition::drop_equal_methods(Limits& limits) {
     // What counts of a method: its subtasks that do not vanish, and their order.
     struct Content {
         MethodInstanceId method;
@@ -74,6 +76,7 @@ void Composition::drop_equal_methods() {
         if (!graph_.is_node_alive[node]) {
             continue;
         }
+        check(limits);
         contents.clear();
         const auto [first, end] = graph_.methods_of[node - graph_.action_node_count];
         for (MethodInstanceId method = first; method < end; ++method) {
@@ -109,7 +112,7 @@ void Composition::drop_equal_methods() {
 }
 
 // Bottom-up: whether a task is replaced depends on how many subtasks it would leave behind.
-void Composition::choose_replaced() {
+void Composition::choose_replaced(Limits& limits) {
     struct Size {
         std::uint32_t subtasks = 0;
         std::uint32_t parts = 0;  // 0: not yet known
@@ -134,6 +137,7 @@ void Composition::choose_replaced() {
     // Tasks of a single method cannot contain each other, so that a depth-first search ends.
     std::vector<NodeId> stack;
     for (NodeId root = graph_.action_node_count; root < nodes; ++root) {
+        check(limits);
         stack.push_back(root);
         while (!stack.empty()) {
             const NodeId node = stack.back();

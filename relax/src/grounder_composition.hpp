@@ -36,7 +36,7 @@ class Composition {
 public:
     // `is_void`: by action node, whether it tests nothing and does nothing. `stands_for`: by action node, an equal one.
     Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_void,
-                const std::vector<NodeId>& stands_for, const GroundingOptions& options);
+                const std::vector<NodeId>& stands_for, const GroundingOptions& options, Limits& limits);
 
     // Whether a living compound task remains.
     bool is_kept(NodeId compound) const { return !is_replaced_[compound]; }
@@ -45,8 +45,8 @@ public:
 private:
     bool is_compound(NodeId node) const { return node >= graph_.action_node_count; }
     bool vanishes(NodeId node) const { return !is_compound(node) && is_void_[node]; }
-    void drop_equal_methods();
-    void choose_replaced();
+    void drop_equal_methods(Limits& limits);
+    void choose_replaced(Limits& limits);
     void append(MethodInstanceId method, std::uint32_t parent, std::uint32_t position, ComposedNetwork& network) const;
 
     TaskGraph& graph_;

@@ -171,11 +171,13 @@ class SearchStatus(enum.Enum):
 
     Unsolvable = 2
 
-    TimeLimit = 3
+    GaveUp = 3
 
-    MemoryLimit = 4
+    TimeLimit = 4
 
-    Interrupted = 5
+    MemoryLimit = 5
+
+    Interrupted = 6
 
 class SearchOptions:
     def __init__(self) -> None: ...
@@ -204,9 +206,17 @@ class SearchOptions:
     @ask_adaptively.setter
     def ask_adaptively(self, arg: bool, /) -> None: ...
     @property
+    def skip_dead_methods(self) -> bool: ...
+    @skip_dead_methods.setter
+    def skip_dead_methods(self, arg: bool, /) -> None: ...
+    @property
     def upper_bound(self) -> int | None: ...
     @upper_bound.setter
     def upper_bound(self, arg: int | None, /) -> None: ...
+    @property
+    def most_evaluations(self) -> int | None: ...
+    @most_evaluations.setter
+    def most_evaluations(self, arg: int | None, /) -> None: ...
 
 class SearchStatistics:
     @property

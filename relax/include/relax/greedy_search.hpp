@@ -2,7 +2,6 @@
 #define RELAX_GREEDY_SEARCH_HPP
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -58,7 +57,7 @@ private:
     bool explores_ = false;             // the next node comes from the type-based list
     std::optional<Cost> least_h_;
     std::optional<NodeId> goal_;  // of the cheapest plan so far
-    std::uint64_t most_evaluations_ = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t most_evaluations_;
     std::vector<Successor> successors_;
     std::vector<TaskId> tasks_;
 };

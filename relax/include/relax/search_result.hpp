@@ -10,7 +10,8 @@
 
 namespace relax {
 
-enum class SearchStatus : std::uint8_t { Optimal, Solved, Unsolvable, TimeLimit, MemoryLimit, Interrupted };
+// GaveUp: neither a plan nor a proof, since a search used up the effort it was given.
+enum class SearchStatus : std::uint8_t { Optimal, Solved, Unsolvable, GaveUp, TimeLimit, MemoryLimit, Interrupted };
 
 // How a search without a plan ends that was stopped.
 constexpr SearchStatus status_of(StopReason reason) {

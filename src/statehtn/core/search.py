@@ -21,21 +21,39 @@ from statehtn.risk import Utility
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """One run of a best-first search; heuristic and weight are the user's where they are None."""
+    """One run of a best-first search; heuristic and weight are the user's where they are None.
+
+    A greedy one is left out where a plan is known. It gives up after `most_evaluations`, or once it has looked at so
+    many actions and methods (`most_looks`; evaluations take the longer, the more there are).
+    """
 
     algorithm: _relax.SearchAlgorithm
     heuristic: str | None = None
     weight: float | None = None
+    most_evaluations: int | None = None
+    most_looks: int | None = None
+
+
+def _greedy(heuristic: str | None = None) -> tuple[Stage, ...]:
+    """Return the stages of a greedy search: a first look, a dive without heuristic, and then as long as it takes.
+
+    Where ground problems are huge, the dive finds plans in the time of a few evaluations.
+    """
+    return (
+        Stage(_relax.SearchAlgorithm.Greedy, heuristic, most_evaluations=20_000, most_looks=15_000_000),
+        Stage(_relax.SearchAlgorithm.Greedy, "tdg", most_evaluations=200_000),
+        Stage(_relax.SearchAlgorithm.Greedy, heuristic),
+    )
 
 
 SEARCHES: Mapping[str, tuple[Stage, ...]] = MappingProxyType(
     {
         "astar": (Stage(_relax.SearchAlgorithm.AStar),),
         "weighted": (Stage(_relax.SearchAlgorithm.Weighted),),
-        "greedy": (Stage(_relax.SearchAlgorithm.Greedy),),
+        "greedy": _greedy(),
         # A plan soon, then better ones: each stage looks only for plans that are better than the best one so far.
         "anytime": (
-            Stage(_relax.SearchAlgorithm.Greedy, heuristic="ff"),
+            *_greedy("ff"),
             Stage(_relax.SearchAlgorithm.Weighted, weight=4.0),
             Stage(_relax.SearchAlgorithm.Weighted, weight=2.0),
             Stage(_relax.SearchAlgorithm.AStar),
@@ -47,6 +65,7 @@ _STATUSES = {
     _relax.SearchStatus.Optimal: Status.OPTIMAL,
     _relax.SearchStatus.Solved: Status.SOLVED,
     _relax.SearchStatus.Unsolvable: Status.UNSOLVABLE,
+    _relax.SearchStatus.GaveUp: Status.EXHAUSTED,
     _relax.SearchStatus.TimeLimit: Status.TIME_LIMIT,
     _relax.SearchStatus.MemoryLimit: Status.MEMORY_LIMIT,
     _relax.SearchStatus.Interrupted: Status.INTERRUPTED,
@@ -121,11 +140,17 @@ def find_plans(
             action.
     """
     run = _Run(grounding, price(grounding.laws, utility), limits, progress)
+    size = max(1, grounding.handle.action_count + grounding.handle.method_count)
     for stage in SEARCHES[search]:
+        if stage.algorithm is _relax.SearchAlgorithm.Greedy and run.best is not None:
+            continue
         options = _relax.SearchOptions()
         options.algorithm = stage.algorithm
         options.heuristic = HEURISTICS[stage.heuristic or heuristic].kind
         options.weight = stage.weight or weight
+        options.most_evaluations = stage.most_evaluations
+        if stage.most_looks is not None:
+            options.most_evaluations = min(stage.most_evaluations or stage.most_looks, 1 + stage.most_looks // size)
         options.use_tdg_bound = switches.tdg_bound
         options.inherit_h = switches.inherit_h
         options.ask_adaptively = switches.adaptive
@@ -178,7 +203,7 @@ class _Run:
             self.best = result
         elif self.best is not None:
             self.status = Status.SOLVED
-        return result.is_stopped or self.status is not Status.SOLVED
+        return result.is_stopped or self.status not in (Status.SOLVED, Status.EXHAUSTED)
 
     def bound_with(self, statistics: _relax.SearchStatistics) -> int | None:
         """Return the best lower bound of all stages and this one."""
