@@ -35,14 +35,17 @@ class Stage:
 
 
 def _greedy(heuristic: str | None = None) -> tuple[Stage, ...]:
-    """Return the stages of a greedy search: a first look, a dive without heuristic, and then as long as it takes.
+    """Return the stages of a greedy search: by the heuristic, by the decomposition graph alone, and so on for longer.
 
-    Where ground problems are huge, the dive finds plans in the time of a few evaluations.
+    Where ground problems are huge, the decomposition graph leads to plans in the time of a few evaluations.
     """
+    greedy = _relax.SearchAlgorithm.Greedy
     return (
-        Stage(_relax.SearchAlgorithm.Greedy, heuristic, most_evaluations=20_000, most_looks=15_000_000),
-        Stage(_relax.SearchAlgorithm.Greedy, "tdg", most_evaluations=200_000),
-        Stage(_relax.SearchAlgorithm.Greedy, heuristic),
+        Stage(greedy, heuristic, most_evaluations=20_000, most_looks=15_000_000),
+        Stage(greedy, "tdg", most_evaluations=60_000),
+        Stage(greedy, heuristic, most_evaluations=100_000, most_looks=60_000_000),
+        Stage(greedy, "tdg", most_evaluations=300_000),
+        Stage(greedy, heuristic),
     )
 
 
