@@ -244,21 +244,32 @@ def _cut(scheme: Scheme, cut: _Cut, number: int) -> tuple[Scheme, Scheme]:
         is_part=True,
     )
     first = cut.indices[0]
-    left = [index for index in range(len(scheme.subtasks)) if index == first or index not in place]
-    at = {index: left.index(first if index in place else index) for index in range(len(scheme.subtasks))}
-    after = _transitive(scheme)
     rest = replace(
         scheme,
         parameters=tuple(parameter for parameter in scheme.parameters if parameter.name not in cut.own),
         constraints=And(tuple(formula for formula in conjuncts(scheme.constraints) if formula not in cut.moved)),
         subtasks=tuple(
-            SchemeSubtask(name, handed, None) if index == first else scheme.subtasks[index] for index in left
+            SchemeSubtask(name, handed, None) if index == first else subtask
+            for index, subtask in enumerate(scheme.subtasks)
+            if index == first or index not in place
         ),
-        ordering=tuple(
-            sorted({(at[one], at[two]) for one, beyond in enumerate(after) for two in beyond if at[one] != at[two]})
-        ),
+        ordering=_ordering_of_the_rest(scheme, cut.indices),
     )
     return part, rest
+
+
+def _ordering_of_the_rest(scheme: Scheme, indices: tuple[int, ...]) -> Ordering:
+    """Return the ordering where one subtask, in the place of the first, stands for all of these."""
+    if len(indices) == 1:
+        return scheme.ordering
+    at: list[int] = []  # by index: the new one
+    others = 0  # so far
+    for index in range(len(scheme.subtasks)):
+        at.append(at[indices[0]] if index in indices[1:] else index - others)
+        others += index in indices[1:]
+    after = _transitive(scheme)
+    pairs = {(at[one], at[two]) for one, beyond in enumerate(after) for two in beyond}
+    return tuple(sorted((one, two) for one, two in pairs if one != two))
 
 
 def _variables(subtask: SchemeSubtask) -> set[str]:
