@@ -43,7 +43,7 @@ class Query:
         attitude: Attitude | str = Attitude.NEUTRAL,
         alpha: float | None = None,
         solver: str = "state",
-        heuristic: str = "lmcut",
+        heuristic: str | None = None,
         search: str = "astar",
         weight: float | None = None,
     ) -> Query:
@@ -53,6 +53,8 @@ class Query:
             UsageError: a name is unknown, or a number out of range.
         """
         utility = utility_for(attitude, alpha)
+        if heuristic is None:
+            heuristic = "ff" if search == "greedy" else "lmcut"
         for kind, name, known in (
             ("solver", solver, tuple(SOLVERS)),
             ("heuristic", heuristic, tuple(HEURISTICS)),
@@ -75,7 +77,7 @@ def plan(
     attitude: Attitude | str = Attitude.NEUTRAL,
     alpha: float | None = None,
     solver: str = "state",
-    heuristic: str = "lmcut",
+    heuristic: str | None = None,
     search: str = "astar",
     weight: float | None = None,
     time_limit: float | None = None,
@@ -91,7 +93,7 @@ def plan(
         attitude: neutral, averse or seeking.
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
-        heuristic: a name from `HEURISTICS`.
+        heuristic: a name from `HEURISTICS`; if none is given, `ff` for greedy search and `lmcut` otherwise.
         search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
             finds one soon, and better ones until it is optimal.
         weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).

@@ -12,6 +12,7 @@ import time
 import pytest
 
 import statehtn
+from statehtn.core.search import SEARCHES
 from statehtn.planner import Query
 from tests.test_minimal import DOMAIN, PROBLEM
 
@@ -202,6 +203,25 @@ def test_an_interrupt_is_a_value() -> None:
 
 def test_huge_limits_are_none(problem: statehtn.Problem) -> None:
     assert statehtn.plan(problem, time_limit=float("inf"), memory_limit=1e9).status is statehtn.Status.OPTIMAL
+
+
+def test_every_search_has_a_heuristic_of_its_own() -> None:
+    assert [Query.of(search=search).heuristic for search in SEARCHES] == ["lmcut", "lmcut", "ff", "lmcut"]
+    assert Query.of(search="greedy", heuristic="tdg").heuristic == "tdg"
+
+
+def test_greedy_search_goes_on_for_a_cheaper_plan() -> None:
+    """One way costs 9, the other one, with more to do, 3."""
+    domain = """
+    (define (domain d) (:predicates (p)) (:functions (total-cost)) (:task go :parameters ())
+      (:method a :parameters () :task (go) :ordered-subtasks (and (dear)))
+      (:method b :parameters () :task (go) :ordered-subtasks (and (cheap) (cheap) (cheap)))
+      (:action dear :parameters () :effect (increase (total-cost) 9))
+      (:action cheap :parameters () :effect (increase (total-cost) 1)))
+    """
+    lifted = statehtn.read_hddl_text(domain, "(define (problem p) (:domain d) (:htn :subtasks (and (go))) (:init))")
+    result = statehtn.plan(lifted, search="greedy", heuristic="blind")
+    assert result.risk_cost == 3
 
 
 def test_query_takes_the_default_weight() -> None:

@@ -88,7 +88,7 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
     )
     search = parser.add_argument_group("the search")
     search.add_argument("--solver", choices=list(SOLVERS), default="state", help="default: state")
-    search.add_argument("--heuristic", choices=list(HEURISTICS), default="lmcut", help="default: lmcut")
+    search.add_argument("--heuristic", choices=list(HEURISTICS), help="default: lmcut, and ff for greedy search")
     search.add_argument(
         "--search",
         choices=list(SEARCHES),
@@ -139,7 +139,7 @@ def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
     several("--attitude", choices=[str(attitude) for attitude in Attitude], help="default: the suite's own")
     several("--alpha", type=float, metavar="A", help="for the averse and the seeking")
     several("--solver", choices=list(SOLVERS), help="default: state")
-    several("--heuristic", choices=list(HEURISTICS), help="default: lmcut")
+    several("--heuristic", choices=list(HEURISTICS), help="default: lmcut, and ff for greedy search")
     several("--search", choices=list(SEARCHES), help="default: astar")
     parser.add_argument("--repeat", type=_count, default=1, metavar="N", help="do everything so many times")
     parser.add_argument(

@@ -73,6 +73,7 @@ class Grid:
 
     Args:
         agents: none where the suite is to choose.
+        heuristics: None stands for the search's own.
         repeat: at least 1.
         time_limit: seconds for each run, reading included.
         memory_limit: resident memory of each run in MB (10^6 bytes).
@@ -80,7 +81,7 @@ class Grid:
 
     agents: Sequence[Agent] = ()
     solvers: Sequence[str] = ("state",)
-    heuristics: Sequence[str] = ("lmcut",)
+    heuristics: Sequence[str | None] = (None,)
     searches: Sequence[str] = ("astar",)
     repeat: int = 1
     time_limit: float | None = None
@@ -94,12 +95,22 @@ class Grid:
         """
         Limits.starting_now(self.time_limit, self.memory_limit)
         combinations = list(product(self.agents or agents, self.solvers, self.heuristics, self.searches))
-        for (attitude, alpha), solver, heuristic, search in combinations:
-            Query.of(attitude, alpha, solver, heuristic, search)
+        queries = [
+            (agent, Query.of(*agent, solver, heuristic, search)) for agent, solver, heuristic, search in combinations
+        ]
         return [
-            Run(instance, *agent, solver, heuristic, search, repeat, self.time_limit, self.memory_limit)
+            Run(
+                instance,
+                *agent,
+                query.solver,
+                query.heuristic,
+                query.search,
+                repeat,
+                self.time_limit,
+                self.memory_limit,
+            )
             for repeat, instance in product(range(1, self.repeat + 1), instances)
-            for agent, solver, heuristic, search in combinations
+            for agent, query in queries
         ]
 
 
