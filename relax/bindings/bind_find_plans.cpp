@@ -105,6 +105,7 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("ask_adaptively", &relax::SearchOptions::ask_adaptively)
         .def_rw("skip_dead_methods", &relax::SearchOptions::skip_dead_methods)
         .def_rw("upper_bound", &relax::SearchOptions::upper_bound)
+        .def_rw("explores", &relax::SearchOptions::explores)
         .def_rw("most_evaluations", &relax::SearchOptions::most_evaluations);
 
     nb::class_<relax::SearchStatistics>(module, "SearchStatistics")

@@ -77,7 +77,7 @@ std::optional<StopReason> GreedySearch::search() {
         if (!node) {
             continue;
         }
-        explores_ = !explores_;
+        explores_ = options_.explores && !explores_;
         const auto h = evaluate(*node);
         if (!h) {
             ++statistics_.dead_ends;
@@ -176,7 +176,9 @@ void GreedySearch::push_successors(NodeId parent, Cost h) {
         }
         const std::uint32_t size = progression_.networks().size(successor.network);
         open_.push(*id, h, size, size);
-        types_.push(*id, h, nodes_[*id].g);
+        if (options_.explores) {
+            types_.push(*id, h, nodes_[*id].g);
+        }
         if (!successor.step.method || heuristic_->is_preferred(*successor.step.method)) {
             preferred_.push(*id, h, size, size);
         }

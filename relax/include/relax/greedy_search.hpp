@@ -22,7 +22,7 @@ namespace relax {
 // Lazy greedy best-first search with preferred successors (Richter and Westphal, "The LAMA planner", 2010), for a plan
 // soon and not for its cost. A node is evaluated when it is popped, and its successors wait with its estimate. Methods
 // of the heuristic's relaxed plan wait in a list of their own, too, which has its turn more often as long as that makes
-// progress. Every other node is taken from the type-based list, which leads out of plateaus.
+// progress. Every other node may be taken from the type-based list, which leads out of plateaus.
 //
 // A node with a single successor is nothing to decide: the search goes through it without asking the heuristic. Once it
 // has a plan, it goes on for as long as that took, for a cheaper one.

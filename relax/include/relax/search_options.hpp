@@ -20,6 +20,7 @@ struct SearchOptions {
     bool ask_adaptively = true;       // ask an admissible heuristic rarely while it tells no more than the cheap bound
     bool skip_dead_methods = true;    // leave out methods whose first task cannot be executed where it would come next
     std::optional<Cost> upper_bound;  // only plans that cost less are wanted
+    bool explores = true;             // Greedy takes every other node from the type-based list
     std::optional<std::uint64_t> most_evaluations;  // Greedy gives up after so many without a plan
 };
 

@@ -24,7 +24,8 @@ class Stage:
     """One run of a best-first search; heuristic and weight are the user's where they are None.
 
     A greedy one is left out where a plan is known. It gives up after `most_evaluations`, or once it has looked at so
-    many actions and methods (`most_looks`; evaluations take the longer, the more there are).
+    many actions and methods (`most_looks`; evaluations take the longer, the more there are). `explores`: whether every
+    other node is one at random.
     """
 
     algorithm: _relax.SearchAlgorithm
@@ -32,6 +33,7 @@ class Stage:
     weight: float | None = None
     most_evaluations: int | None = None
     most_looks: int | None = None
+    explores: bool = True
 
 
 def _greedy(heuristic: str | None = None) -> tuple[Stage, ...]:
@@ -41,9 +43,9 @@ def _greedy(heuristic: str | None = None) -> tuple[Stage, ...]:
     """
     greedy = _relax.SearchAlgorithm.Greedy
     return (
-        Stage(greedy, heuristic, most_evaluations=20_000, most_looks=15_000_000),
+        Stage(greedy, heuristic, most_evaluations=20_000, most_looks=12_000_000, explores=False),
         Stage(greedy, "tdg", most_evaluations=60_000),
-        Stage(greedy, heuristic, most_evaluations=100_000, most_looks=60_000_000),
+        Stage(greedy, heuristic, most_evaluations=150_000, most_looks=120_000_000),
         Stage(greedy, "tdg", most_evaluations=300_000),
         Stage(greedy, heuristic),
     )
@@ -152,6 +154,7 @@ def find_plans(
         options.heuristic = HEURISTICS[stage.heuristic or heuristic].kind
         options.weight = stage.weight or weight
         options.most_evaluations = stage.most_evaluations
+        options.explores = stage.explores
         if stage.most_looks is not None:
             options.most_evaluations = min(stage.most_evaluations or stage.most_looks, 1 + stage.most_looks // size)
         options.use_tdg_bound = switches.tdg_bound
