@@ -41,7 +41,7 @@ public:
         problem.method_task.push_back(task);
         problem.method_subtasks.add_row(subtasks);
         for (std::uint32_t position = 0; position < subtasks.size(); ++position) {
-            problem.method_positions.push(position);
+            problem.method_positions.push({0, position});
             for (std::uint32_t later = position + 1; ordered && later < subtasks.size(); ++later) {
                 problem.method_ordering.push({position, later});
             }
