@@ -85,7 +85,8 @@ void bind_find_plans(nb::module_& module) {
     nb::enum_<relax::SearchAlgorithm>(module, "SearchAlgorithm")
         .value("AStar", relax::SearchAlgorithm::AStar)
         .value("Weighted", relax::SearchAlgorithm::Weighted)
-        .value("Greedy", relax::SearchAlgorithm::Greedy);
+        .value("Greedy", relax::SearchAlgorithm::Greedy)
+        .value("PlanBased", relax::SearchAlgorithm::PlanBased);
     nb::enum_<relax::SearchStatus>(module, "SearchStatus")
         .value("Optimal", relax::SearchStatus::Optimal)
         .value("Solved", relax::SearchStatus::Solved)
@@ -105,6 +106,8 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("ask_adaptively", &relax::SearchOptions::ask_adaptively)
         .def_rw("skip_dead_methods", &relax::SearchOptions::skip_dead_methods)
         .def_rw("upper_bound", &relax::SearchOptions::upper_bound)
+        .def_rw("branches_over_all", &relax::SearchOptions::branches_over_all)
+        .def_rw("checks_preconditions", &relax::SearchOptions::checks_preconditions)
         .def_rw("explores", &relax::SearchOptions::explores)
         .def_rw("most_evaluations", &relax::SearchOptions::most_evaluations);
 

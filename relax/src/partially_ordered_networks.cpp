@@ -44,6 +44,15 @@ void PartiallyOrderedNetworks::tasks(NetworkId network, std::vector<TaskId>& tas
     }
 }
 
+void PartiallyOrderedNetworks::ordered_tasks(NetworkId network, OrderedTasks& ordered) const {
+    const Record& record = records_[network];
+    ordered.reset(record.size);
+    std::copy(record.words, record.words + ordered.predecessors.size(), ordered.predecessors.begin());
+    for (std::uint32_t index = 0; index < record.size; ++index) {
+        ordered.tasks[index] = task(record, index);
+    }
+}
+
 NetworkId PartiallyOrderedNetworks::progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) {
     replace(network, index, std::nullopt);
     return intern(origins);
@@ -60,8 +69,7 @@ TaskId PartiallyOrderedNetworks::task(const Record& record, std::uint32_t index)
     return static_cast<TaskId>(tasks[index / 2] >> (index % 2 * 32));
 }
 
-// Draft the network without an unconstrained occurrence, and with the method's subtasks, where one is given, in its
-// place.
+// Draft the network without an occurrence, and with the method's subtasks, where one is given, in its place.
 void PartiallyOrderedNetworks::replace(NetworkId network, std::uint32_t index, std::optional<MethodId> method) {
     const Record& record = records_[network];
     const auto subtasks = method ? problem_.method_subtasks[*method] : std::span<const TaskId>{};
@@ -71,17 +79,20 @@ void PartiallyOrderedNetworks::replace(NetworkId network, std::uint32_t index, s
     draft_origins_.clear();
     const auto moved = [index](std::uint32_t old) { return old < index ? old : old - 1; };
     for (std::uint32_t old = 0; old < record.size; ++old) {
-        if (old == index) {
-            continue;
-        }
-        draft_.tasks[moved(old)] = task(record, old);
-        draft_origins_.push_back({false, old});
         const std::uint64_t* row = record.words + old * words;
+        if (old != index) {
+            draft_.tasks[moved(old)] = task(record, old);
+            draft_origins_.push_back({false, old});
+        }
         for (std::uint32_t earlier = 0; earlier < record.size; ++earlier) {
             if ((row[earlier / 64] >> (earlier % 64) & 1U) == 0) {
                 continue;
             }
-            if (earlier != index) {
+            if (old == index) {
+                for (std::size_t subtask = 0; subtask < subtasks.size(); ++subtask) {
+                    draft_.put_before(moved(earlier), kept + subtask);
+                }
+            } else if (earlier != index) {
                 draft_.put_before(moved(earlier), moved(old));
             } else {
                 for (std::size_t subtask = 0; subtask < subtasks.size(); ++subtask) {

@@ -5,7 +5,6 @@
 
 namespace relax {
 
-// Walk from the root to the goal once more and keep track of which task of the decomposition tree each occurrence is.
 void trace_plan(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
                 const DuplicateRegistry& nodes, NodeId goal, SearchResult& result) {
     std::vector<SearchStep> steps;
@@ -13,7 +12,12 @@ void trace_plan(const GroundProblem& problem, std::span<const Cost> costs, Progr
         steps.push_back(nodes[id].step());
     }
     std::reverse(steps.begin(), steps.end());
+    trace_steps(problem, costs, progression, steps, result);
+}
 
+// Walk the steps once more and keep track of which task of the decomposition tree each occurrence is.
+void trace_steps(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
+                 std::span<const SearchStep> steps, SearchResult& result) {
     TaskNetworks& networks = progression.networks();
     NetworkId network = progression.initial_network();
     std::vector<std::uint32_t> tree_node{0};  // by occurrence

@@ -4,6 +4,7 @@
 
 #include "relax/find_plans.hpp"
 #include "relax/greedy_search.hpp"
+#include "relax/plan_based.hpp"
 
 namespace relax {
 
@@ -11,6 +12,9 @@ SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const
                     SearchStatistics& statistics) {
     if (options.algorithm == SearchAlgorithm::Greedy) {
         return GreedySearch(problem, std::move(costs), options, limits, statistics).run();
+    }
+    if (options.algorithm == SearchAlgorithm::PlanBased) {
+        return PlanBased(problem, std::move(costs), options, limits, statistics).run();
     }
     return FindPlans(problem, std::move(costs), options, limits, statistics).run();
 }

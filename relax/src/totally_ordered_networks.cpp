@@ -54,6 +54,16 @@ void TotallyOrderedNetworks::tasks(NetworkId network, std::vector<TaskId>& tasks
     }
 }
 
+void TotallyOrderedNetworks::ordered_tasks(NetworkId network, OrderedTasks& ordered) const {
+    ordered.reset(cells_[network].size);
+    for (std::size_t index = 0; network != kEmpty; network = cells_[network].rest, ++index) {
+        ordered.tasks[index] = cells_[network].first;
+        for (std::size_t earlier = 0; earlier < index; ++earlier) {
+            ordered.put_before(earlier, index);
+        }
+    }
+}
+
 NetworkId TotallyOrderedNetworks::progress(NetworkId network, std::uint32_t /*index*/, std::vector<Origin>* origins) {
     const Cell& cell = cells_[network];
     if (origins != nullptr) {
@@ -65,22 +75,33 @@ NetworkId TotallyOrderedNetworks::progress(NetworkId network, std::uint32_t /*in
     return cell.rest;
 }
 
-NetworkId TotallyOrderedNetworks::decompose(NetworkId network, std::uint32_t /*index*/, MethodId method,
+NetworkId TotallyOrderedNetworks::decompose(NetworkId network, std::uint32_t index, MethodId method,
                                             std::vector<Origin>* origins) {
-    NetworkId result = cells_[network].rest;
+    const std::uint32_t size = cells_[network].size;
+    earlier_.clear();
+    for (; earlier_.size() < index; network = cells_[network].rest) {
+        earlier_.push_back(cells_[network].first);
+    }
     const auto sequence = sequence_[method];
     const auto subtasks = problem_.method_subtasks[method];
-    if (origins != nullptr) {
-        origins->clear();
-        for (const std::uint32_t subtask : sequence) {
-            origins->push_back({true, subtask});
-        }
-        for (std::uint32_t index = 1; index < cells_[network].size; ++index) {
-            origins->push_back({false, index});
-        }
-    }
+    NetworkId result = cells_[network].rest;
     for (std::size_t place = sequence.size(); place-- > 0;) {
         result = intern(subtasks[sequence[place]], result);
+    }
+    for (std::size_t place = index; place-- > 0;) {
+        result = intern(earlier_[place], result);
+    }
+    if (origins != nullptr) {
+        origins->clear();
+        for (std::uint32_t old = 0; old < size; ++old) {
+            if (old != index) {
+                origins->push_back({false, old});
+                continue;
+            }
+            for (const std::uint32_t subtask : sequence) {
+                origins->push_back({true, subtask});
+            }
+        }
     }
     return result;
 }

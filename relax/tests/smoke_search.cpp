@@ -39,6 +39,10 @@ public:
 
     void method(relax::TaskId task, const std::vector<relax::TaskId>& subtasks, bool ordered) {
         problem.method_task.push_back(task);
+        if (problem.method_part_begin.empty()) {
+            problem.method_part_begin.push_back(0);
+        }
+        problem.method_part_begin.push_back(problem.method_part_begin.back() + 1);
         problem.method_subtasks.add_row(subtasks);
         for (std::uint32_t position = 0; position < subtasks.size(); ++position) {
             problem.method_positions.push({0, position});
@@ -97,7 +101,8 @@ bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm 
     relax::SearchStatistics statistics;
     const relax::SearchResult result = relax::search(problem, {3, 5, 4}, options, limits, statistics);
     const bool optimal = result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{15};
-    const bool promises_nothing = algorithm != relax::SearchAlgorithm::AStar || !relax::is_admissible(heuristic);
+    const bool is_exact = algorithm == relax::SearchAlgorithm::AStar || algorithm == relax::SearchAlgorithm::PlanBased;
+    const bool promises_nothing = !is_exact || !relax::is_admissible(heuristic);
     const bool solved = promises_nothing && result.cost && *result.cost >= 15;
     const bool good = (optimal || solved) && !result.plan.empty() && statistics.lower_bound.value_or(99) <= 15;
     if (!good) {
@@ -120,6 +125,9 @@ int main() {
                  {relax::SearchAlgorithm::AStar, relax::SearchAlgorithm::Weighted, relax::SearchAlgorithm::Greedy}) {
                 ++(solve(ordered, heuristic, algorithm) ? passed : failed);
             }
+        }
+        for (const auto heuristic : {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg}) {
+            ++(solve(ordered, heuristic, relax::SearchAlgorithm::PlanBased) ? passed : failed);
         }
     }
     std::printf("%d passed, %d failed\n", passed, failed);

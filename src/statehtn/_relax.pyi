@@ -164,6 +164,8 @@ class SearchAlgorithm(enum.Enum):
 
     Greedy = 2
 
+    PlanBased = 3
+
 class SearchStatus(enum.Enum):
     Optimal = 0
 
@@ -213,6 +215,14 @@ class SearchOptions:
     def upper_bound(self) -> int | None: ...
     @upper_bound.setter
     def upper_bound(self, arg: int | None, /) -> None: ...
+    @property
+    def branches_over_all(self) -> bool: ...
+    @branches_over_all.setter
+    def branches_over_all(self, arg: bool, /) -> None: ...
+    @property
+    def checks_preconditions(self) -> bool: ...
+    @checks_preconditions.setter
+    def checks_preconditions(self, arg: bool, /) -> None: ...
     @property
     def explores(self) -> bool: ...
     @explores.setter

@@ -8,9 +8,10 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from statehtn.core.grounding import ground
+from statehtn.core.grounding import Grounding, ground
 from statehtn.core.heuristics import HEURISTICS
-from statehtn.core.search import SEARCHES, Progress, find_plans
+from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS, search_plans
+from statehtn.core.search import SEARCHES, Progress, SearchOutcome, find_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import InternalError, UsageError
 from statehtn.hddl import read_hddl
@@ -22,7 +23,10 @@ from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Utility, problem_class, utility_for
 from statehtn.validate import validate
 
-SOLVERS: dict[str, str] = {"state": "A* progression search over states and task networks (paper Algorithm 4)"}
+SOLVERS: dict[str, str] = {
+    "state": "A* progression search over states and task networks (paper Algorithm 4)",
+    "plan": "A* search over task networks alone (paper Algorithms 1 to 3)",
+}
 DEFAULT_WEIGHT = 2.0
 
 ProgressCallback = Callable[[Progress], None]
@@ -37,6 +41,7 @@ class Query:
     heuristic: str
     search: str
     weight: float
+    branch: str = "fewest"
 
     @staticmethod
     def of(
@@ -46,6 +51,7 @@ class Query:
         heuristic: str | None = None,
         search: str = "astar",
         weight: float | None = None,
+        branch: str | None = None,
     ) -> Query:
         """Check the arguments, described at `plan`.
 
@@ -54,21 +60,36 @@ class Query:
         """
         utility = utility_for(attitude, alpha)
         if heuristic is None:
-            heuristic = "ff" if search == "greedy" else "lmcut"
+            heuristic = default_heuristic(solver, search)
         for kind, name, known in (
             ("solver", solver, tuple(SOLVERS)),
             ("heuristic", heuristic, tuple(HEURISTICS)),
             ("search", search, tuple(SEARCHES)),
+            ("branch", branch, (None, *BRANCHES)),
         ):
             if name not in known:
-                raise UsageError(f"unknown {kind} '{name}'; there are {', '.join(known)}")
+                raise UsageError(f"unknown {kind} '{name}'; there are {', '.join(filter(None, known))}")
+        if solver == "plan" and search != "astar":
+            raise UsageError(f"the solver 'plan' has no search but 'astar', found '{search}'")
+        if solver == "plan" and heuristic not in PLAN_BASED_HEURISTICS:
+            usable = " and ".join(PLAN_BASED_HEURISTICS)
+            raise UsageError(f"the solver 'plan' has no state, which '{heuristic}' needs; its heuristics are {usable}")
+        if branch is not None and solver != "plan":
+            raise UsageError(f"a branch belongs to the solver 'plan', not to '{solver}'")
         if weight is not None and search != "weighted":
             raise UsageError(f"a weight belongs to the weighted search, not to '{search}'")
         if weight is not None and not (math.isfinite(weight) and weight >= 1):
             raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
         if search == "weighted":
             weight = DEFAULT_WEIGHT if weight is None else weight
-        return Query(utility, solver, heuristic, search, 1.0 if weight is None else weight)
+        return Query(utility, solver, heuristic, search, 1.0 if weight is None else weight, branch or "fewest")
+
+
+def default_heuristic(solver: str, search: str) -> str:
+    """Return the heuristic that is taken where none is given."""
+    if solver == "plan":
+        return PLAN_BASED_HEURISTICS[0]
+    return "ff" if search == "greedy" else "lmcut"
 
 
 def plan(
@@ -80,6 +101,7 @@ def plan(
     heuristic: str | None = None,
     search: str = "astar",
     weight: float | None = None,
+    branch: str | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
@@ -93,10 +115,13 @@ def plan(
         attitude: neutral, averse or seeking.
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
-        heuristic: a name from `HEURISTICS`; if none is given, `ff` for greedy search and `lmcut` otherwise.
+        heuristic: a name from `HEURISTICS`; if none is given, `ff` for greedy search and `lmcut` otherwise; for the
+            solver `plan` it is `tdg` (or `blind`).
         search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
             finds one soon, and better ones until it is optimal.
         weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).
+        branch: which tasks the solver `plan` decomposes in a network: `fewest`, the one with the fewest methods, or
+            `all`, as the paper's Algorithm 3 does.
         time_limit: seconds, for grounding and search together.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
         progress: is called some ten times a second during the search.
@@ -106,7 +131,7 @@ def plan(
         InputError: the cost of a reachable action is undefined, negative or no distribution.
         UnsupportedError: the problem asks for something that the planner does not do.
     """
-    query = Query.of(attitude, alpha, solver, heuristic, search, weight)
+    query = Query.of(attitude, alpha, solver, heuristic, search, weight, branch)
     limits = Limits.starting_now(time_limit, memory_limit)
     return _solve(problem, query, limits, progress, Statistics())
 
@@ -183,15 +208,7 @@ def _solve(
     )
     start = time.perf_counter()
     try:
-        outcome = find_plans(
-            grounding,
-            query.utility,
-            heuristic=query.heuristic,
-            search=query.search,
-            weight=query.weight,
-            limits=limits,
-            progress=progress,
-        )
+        outcome = _search(grounding, query, limits, progress)
     except ENDINGS as ending:
         return no_plan(query, status_of(ending), replace(statistics, search_seconds=time.perf_counter() - start))
     statistics = replace(
@@ -204,6 +221,28 @@ def _solve(
     )
     result = no_plan(query, outcome.status, statistics, outcome.lower_bound)
     return result if outcome.plan is None else _with_plan(result, problem, outcome.plan)
+
+
+def _search(grounding: Grounding, query: Query, limits: Limits, progress: ProgressCallback | None) -> SearchOutcome:
+    """Run the solver that is asked for."""
+    if query.solver == "plan":
+        return search_plans(
+            grounding,
+            query.utility,
+            heuristic=query.heuristic,
+            branch=query.branch,
+            limits=limits,
+            progress=progress,
+        )
+    return find_plans(
+        grounding,
+        query.utility,
+        heuristic=query.heuristic,
+        search=query.search,
+        weight=query.weight,
+        limits=limits,
+        progress=progress,
+    )
 
 
 def _with_plan(result: Result, problem: Problem, found: Plan) -> Result:

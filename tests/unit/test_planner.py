@@ -81,6 +81,10 @@ def problem() -> statehtn.Problem:
         {"attitude": "brave"},
         {"heuristic": "magic"},
         {"solver": "oracle"},
+        {"solver": "plan", "heuristic": "lmcut"},
+        {"solver": "plan", "search": "greedy"},
+        {"solver": "plan", "branch": "none"},
+        {"branch": "all"},
         {"search": "depth-first"},
         {"weight": 2.0},
         {"search": "weighted", "weight": 0.5},
@@ -150,10 +154,11 @@ def test_time_limit_is_a_value(problem: statehtn.Problem) -> None:
     assert result.statistics.ground_seconds is not None
 
 
-def test_endless_search_ends_at_the_time_limit_with_a_bound() -> None:
+@pytest.mark.parametrize("solver", statehtn.SOLVERS)
+def test_endless_search_ends_at_the_time_limit_with_a_bound(solver: str) -> None:
     endless = statehtn.read_hddl_text(ENDLESS_DOMAIN, ENDLESS_PROBLEM)
     seen: list[statehtn.Progress] = []
-    result = statehtn.plan(endless, time_limit=0.5, progress=seen.append)
+    result = statehtn.plan(endless, solver=solver, time_limit=0.5, progress=seen.append)
     assert result.status is statehtn.Status.TIME_LIMIT
     assert result.lower_bound is not None
     assert result.lower_bound > 0
@@ -189,12 +194,13 @@ def test_a_progress_callback_may_raise() -> None:
         statehtn.plan(endless, time_limit=10, progress=refuse)
 
 
-def test_an_interrupt_is_a_value() -> None:
+@pytest.mark.parametrize("solver", statehtn.SOLVERS)
+def test_an_interrupt_is_a_value(solver: str) -> None:
     endless = statehtn.read_hddl_text(ENDLESS_DOMAIN, ENDLESS_PROBLEM)
     timer = threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT))
     timer.start()
     start = time.monotonic()
-    result = statehtn.plan(endless, time_limit=10)
+    result = statehtn.plan(endless, solver=solver, time_limit=10)
     timer.join()
     assert result.status is statehtn.Status.INTERRUPTED
     assert time.monotonic() - start < 1

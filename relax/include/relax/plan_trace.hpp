@@ -10,7 +10,12 @@
 
 namespace relax {
 
-// Write the plan that leads to the goal node, its cost and its decomposition tree. `costs`: by ActionId.
+// Write the plan that the steps lead to from the initial state and network, its cost and its decomposition tree.
+// `costs`: by ActionId.
+void trace_steps(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
+                 std::span<const SearchStep> steps, SearchResult& result);
+
+// The same for the steps that lead to a node.
 void trace_plan(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
                 const DuplicateRegistry& nodes, NodeId goal, SearchResult& result);
 

@@ -9,18 +9,21 @@
 
 namespace relax {
 
-enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy };
+// PlanBased searches task networks alone, the others states and task networks.
+enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased };
 
 struct SearchOptions {
     HeuristicKind heuristic = HeuristicKind::LmCut;
     SearchAlgorithm algorithm = SearchAlgorithm::AStar;
-    double weight = 1.0;              // of h, for Weighted; at least 1
-    bool use_tdg_bound = true;        // bound nodes by the decomposition graph before the heuristic is asked
-    bool inherit_h = true;            // a node's h is at least its parent's less the cost of the step
-    bool ask_adaptively = true;       // ask an admissible heuristic rarely while it tells no more than the cheap bound
-    bool skip_dead_methods = true;    // leave out methods whose first task cannot be executed where it would come next
-    std::optional<Cost> upper_bound;  // only plans that cost less are wanted
-    bool explores = true;             // Greedy takes every other node from the type-based list
+    double weight = 1.0;               // of h, for Weighted; at least 1
+    bool use_tdg_bound = true;         // bound nodes by the decomposition graph before the heuristic is asked
+    bool inherit_h = true;             // a node's h is at least its parent's less the cost of the step
+    bool ask_adaptively = true;        // ask an admissible heuristic rarely while it tells no more than the cheap bound
+    bool skip_dead_methods = true;     // leave out methods whose first task cannot be executed where it would come next
+    std::optional<Cost> upper_bound;   // only plans that cost less are wanted
+    bool branches_over_all = false;    // PlanBased tries every compound task of a network, not one
+    bool checks_preconditions = true;  // PlanBased leaves out networks with a precondition that cannot be met
+    bool explores = true;              // Greedy takes every other node from the type-based list
     std::optional<std::uint64_t> most_evaluations;  // Greedy gives up after so many without a plan
 };
 

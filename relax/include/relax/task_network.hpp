@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "relax/canonical_order.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
 
@@ -37,11 +38,13 @@ public:
     virtual NetworkId initial() = 0;
     // Append the occurrences that nothing is ordered before.
     virtual void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const = 0;
-    // Append every task of the network, in no particular order, with repetitions.
+    // Append every task of the network by index, with repetitions.
     virtual void tasks(NetworkId network, std::vector<TaskId>& tasks) const = 0;
+    // Write the tasks by index, and their order.
+    virtual void ordered_tasks(NetworkId network, OrderedTasks& ordered) const = 0;
     // Take an unconstrained occurrence away. `origins`, where given, gets one entry for each occurrence of the result.
     virtual NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins = nullptr) = 0;
-    // Replace an unconstrained occurrence by the method's subtasks.
+    // Replace an occurrence, constrained or not, by the method's subtasks.
     virtual NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method,
                                 std::vector<Origin>* origins = nullptr) = 0;
     // The sum of the tasks' decomposition-graph bounds.

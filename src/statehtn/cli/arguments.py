@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.plan_based import BRANCHES
 from statehtn.core.search import SEARCHES
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import SUITES
@@ -87,8 +88,15 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         help="how much such an agent cares, per unit of cost",
     )
     search = parser.add_argument_group("the search")
-    search.add_argument("--solver", choices=list(SOLVERS), default="state", help="default: state")
-    search.add_argument("--heuristic", choices=list(HEURISTICS), help="default: lmcut, and ff for greedy search")
+    search.add_argument(
+        "--solver",
+        choices=list(SOLVERS),
+        default="state",
+        help="over states and task networks (default), or over task networks alone",
+    )
+    search.add_argument(
+        "--heuristic", choices=list(HEURISTICS), help="default: lmcut; ff for greedy search; tdg for the solver plan"
+    )
     search.add_argument(
         "--search",
         choices=list(SEARCHES),
@@ -97,6 +105,11 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
     )
     search.add_argument(
         "--weight", type=float, metavar="W", help=f"of the weighted search, at least 1; default: {DEFAULT_WEIGHT:g}"
+    )
+    search.add_argument(
+        "--branch",
+        choices=list(BRANCHES),
+        help="of the solver plan: decompose the task of a network with the fewest methods (default), or every one",
     )
     search.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
     search.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")

@@ -22,7 +22,15 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         OutputError: the plan was found and printed, but could not be written to a file.
     """
-    query = Query.of(options.attitude, options.alpha, options.solver, options.heuristic, options.search, options.weight)
+    query = Query.of(
+        attitude=options.attitude,
+        alpha=options.alpha,
+        solver=options.solver,
+        heuristic=options.heuristic,
+        search=options.search,
+        weight=options.weight,
+        branch=options.branch,
+    )
     if options.output is not None:
         check_writable(options.output)
     problem = None

@@ -144,7 +144,7 @@ def find_plans(
         UnsupportedError: the costs of a plan exceed the range of fixed point, some 10^6 times the largest cost of an
             action.
     """
-    run = _Run(grounding, price(grounding.laws, utility), limits, progress)
+    run = StagedRun(grounding, price(grounding.laws, utility), limits, progress)
     size = max(1, grounding.handle.action_count + grounding.handle.method_count)
     for stage in SEARCHES[search]:
         if stage.algorithm is _relax.SearchAlgorithm.Greedy and run.best is not None:
@@ -166,7 +166,7 @@ def find_plans(
     return run.outcome()
 
 
-class _Run:
+class StagedRun:
     """The stages of a search: the best plan and the best bound so far, and the effort of all of them together."""
 
     def __init__(
@@ -233,6 +233,7 @@ class _Run:
         )
 
     def outcome(self) -> SearchOutcome:
+        """Return how the stages ended together."""
         return SearchOutcome(
             self.status,
             None if self.best is None else read_trace(self.grounding, self.best),

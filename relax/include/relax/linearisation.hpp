@@ -1,0 +1,51 @@
+#ifndef RELAX_LINEARISATION_HPP
+#define RELAX_LINEARISATION_HPP
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "relax/ids.hpp"
+#include "relax/limits.hpp"
+#include "relax/open_list.hpp"
+#include "relax/progression.hpp"
+#include "relax/search_node.hpp"
+#include "relax/segmented_array.hpp"
+
+namespace relax {
+
+// Executability of primitive networks (the paper's Definition 4.2): finds the cheapest order of the tasks that respects
+// the network's and can be executed from the initial state. An A* search of its own, since the question is NP-complete.
+// Pairs of state and rest of a network that have proven hopeless are remembered from one network to the next.
+//
+// A choice between the cases of an action counts as primitive: which case it is depends on the state.
+class Linearisation {
+public:
+    Linearisation(Progression& progression, Limits& limits) : progression_(progression), limits_(limits) {}
+
+    struct Order {
+        std::vector<SearchStep> steps;
+        Cost cost;
+    };
+
+    // Returns the cheapest order, or nothing if there is none or `stop` says that a limit was reached.
+    std::optional<Order> find(NetworkId network, std::optional<StopReason>& stop);
+
+private:
+    void reach(NodeId from, Cost g, const Successor& successor);
+    std::vector<SearchStep> steps_to(NodeId node) const;
+
+    Progression& progression_;
+    Limits& limits_;
+    DuplicateRegistry nodes_;
+    SegmentedArray<std::uint32_t> seen_;  // by NodeId: the latest call that met the node, or kHopeless
+    static constexpr std::uint32_t kHopeless = 0;
+    std::uint32_t call_ = 0;
+    OpenList open_;
+    std::vector<NodeId> met_;  // in this call
+    std::vector<Successor> successors_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,81 @@
+#ifndef RELAX_PLAN_BASED_HPP
+#define RELAX_PLAN_BASED_HPP
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "relax/ground_problem.hpp"
+#include "relax/ids.hpp"
+#include "relax/limits.hpp"
+#include "relax/linearisation.hpp"
+#include "relax/open_list.hpp"
+#include "relax/open_preconditions.hpp"
+#include "relax/progression.hpp"
+#include "relax/search_options.hpp"
+#include "relax/search_result.hpp"
+#include "relax/segmented_array.hpp"
+
+namespace relax {
+
+// Plan-based search (the paper's Algorithm 3): A* over task networks, without a state. A network's f is the sum of its
+// primitive tasks' costs (g) and of its compound tasks' decomposition-graph bounds (h); decomposing a task gives the
+// next ones. A primitive network is a solution if some order of it can be executed. Where costs depend on the state, g
+// is a lower bound: the network is put back with the cost of its cheapest order and returned when it is popped again.
+//
+// Networks with a precondition that nothing can make true any more are left out (see OpenPreconditions); the paper
+// finds out when all their tasks are primitive.
+//
+// Decomposing a task never bars another decomposition, so that it is enough to branch over one compound task: the one
+// with the fewest methods. `SearchOptions::branches_over_all` tries every task, as the paper writes it.
+class PlanBased {
+public:
+    // `costs`: by ActionId, at least 0. Of the options, it reads the heuristic (Tdg or Blind) and those that
+    // name PlanBased.
+    PlanBased(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+              SearchStatistics& statistics);
+
+    // Throws std::overflow_error if costs add up to more than fixed point can hold.
+    SearchResult run();
+
+private:
+    // A network and a way to it. All ways to a network have the same f.
+    struct Node {
+        NetworkId network;
+        NodeId parent;  // itself for the root
+        SearchStep step;
+    };
+    struct Solution {
+        NodeId node;
+        Cost cost;
+        std::vector<SearchStep> order;
+    };
+
+    std::optional<StopReason> search();
+    std::optional<StopReason> execute(NodeId node);
+    void expand(NodeId node);
+    void generate(NodeId parent, NetworkId network, const SearchStep& step);
+    void look_at(NetworkId network);
+    void trace(SearchResult& result);
+
+    const GroundProblem& problem_;
+    std::vector<Cost> costs_;
+    SearchOptions options_;
+    Limits& limits_;
+    SearchStatistics& statistics_;
+    std::vector<bool> is_choice_;    // by TaskId: the case of an action is chosen when it is executed
+    std::vector<Cost> task_bounds_;  // by TaskId
+    Progression progression_;
+    Linearisation linearisation_;
+    OpenPreconditions open_preconditions_;
+    SegmentedArray<Node> nodes_;
+    std::vector<bool> is_known_;  // by NetworkId: the closed list
+    OpenList open_;
+    std::optional<Solution> solution_;   // the best so far
+    OrderedTasks tasks_;                 // of the network looked at
+    std::vector<Occurrence> compounds_;  // likewise
+};
+
+}  // namespace relax
+
+#endif
