@@ -1,0 +1,229 @@
+"""Execute runs on the workers of a Dask cluster; scheduling, retries and failures are Dask's business.
+
+A run travels with the text of its domain and problem, so that workers need no files of the client's, and is a process
+of its own there, too. Workers need the same version of statehtn.
+"""
+
+from __future__ import annotations
+
+import logging
+import uuid
+import warnings
+import zlib
+from collections.abc import Generator, Sequence
+from concurrent.futures import CancelledError
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+from queue import SimpleQueue
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import statehtn
+from statehtn.errors import ClusterError, UsageError
+from statehtn.experiments.records import Record
+from statehtn.experiments.run import Run
+from statehtn.experiments.runner import Children, execute
+from statehtn.model.status import Status
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+CONNECT_SECONDS = 5.0
+RESULT_SECONDS = 60.0
+"""How long to wait for a record that is there: where its worker is lost meanwhile, Dask makes it once more."""
+OUTSTANDING = 1000
+"""So many runs are with the cluster at once, at most; it keeps their problems in memory."""
+RETRIES = 3
+"""So often a run that was interrupted or could not be started is given to a worker again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parcel:
+    """A run, the compressed content of its files (None for one that cannot be read), and who sends it."""
+
+    run: Run
+    domain: bytes | None
+    problem: bytes | None
+    version: str
+    comparison: str
+
+    @staticmethod
+    def of(run: Run, comparison: str) -> Parcel:
+        """Read the files of a run."""
+        domain, problem = (_content(Path(name)) for name in (run.instance.domain_file, run.instance.problem_file))
+        return Parcel(run, domain, problem, statehtn.__version__, comparison)
+
+
+class RunsOfAComparison:
+    """The runs of one comparison on a worker; a Dask plugin of every worker: taken away, it ends them."""
+
+    def __init__(self, comparison: str) -> None:
+        self.name = comparison
+
+    def setup(self, worker: Any) -> None:
+        """Keep a list of what is running on this worker."""
+        self.children = Children()
+        self._worker = worker
+
+    def teardown(self, worker: Any) -> None:  # noqa: ARG002 - Dask passes it
+        """End what is running."""
+        self.children.stop()
+
+
+def execute_on_cluster(runs: Sequence[Run], address: str) -> Generator[Record]:
+    """Execute runs on a Dask cluster and yield their records as they end; close the iterator to cancel the others.
+
+    Args:
+        runs: each yields one record.
+        address: of the scheduler, such as `tcp://127.0.0.1:8786`.
+
+    Raises:
+        UsageError: the package `distributed` is missing, or the address makes no sense.
+        ClusterError: there is no scheduler, it is lost, or the workers cannot execute a run.
+    """
+    client = _connect(address)
+    comparison = f"statehtn-{uuid.uuid4().hex}"
+    waiting, outstanding = iter(runs), dict[str, tuple[Future, Run]]()
+    ended: SimpleQueue[Future] = SimpleQueue()
+    try:
+        _prepare_workers(client, address, comparison)
+        while True:
+            for run in islice(waiting, OUTSTANDING - len(outstanding)):
+                parcel = Parcel.of(run, comparison)
+                future = client.submit(execute_parcel, parcel, pure=False, retries=RETRIES, key=_key(comparison, run))
+                outstanding[future.key] = future, run
+                future.add_done_callback(ended.put)
+            if not outstanding:
+                return
+            future = ended.get()
+            record = _record(future, outstanding[future.key][1], address)
+            del outstanding[future.key]
+            yield record
+    finally:
+        _leave(client, comparison, [future for future, _ in outstanding.values()])
+
+
+def _key(comparison: str, run: Run) -> str:
+    """Return a name for a run that no other has on the cluster; its first word is what Dask's dashboard shows."""
+    return f"statehtn-{'-'.join(run.key)}-{comparison}"
+
+
+def _connect(address: str) -> Client:
+    try:
+        from distributed import Client
+    except ImportError:
+        raise UsageError(
+            "running on a Dask cluster needs the package 'distributed': pip install 'statehtn[dask]'"
+        ) from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it becomes an error here
+    try:
+        return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+    except (OSError, TimeoutError):
+        raise ClusterError(
+            f"no Dask scheduler answers at '{address}' within {CONNECT_SECONDS:g} s; is it running?"
+        ) from None
+    except (ValueError, TypeError, RuntimeError) as error:
+        raise UsageError(
+            f"'{address}' is no address of a Dask scheduler, such as tcp://127.0.0.1:8786: {error}"
+        ) from None
+
+
+def _prepare_workers(client: Client, address: str, comparison: str) -> None:
+    """Have all workers, and those yet to come, ready for the runs of a comparison.
+
+    Raises:
+        ClusterError: a worker is not able to.
+    """
+    from distributed import WorkerPlugin
+
+    class Plugin(RunsOfAComparison, WorkerPlugin):  # type: ignore[misc] - Dask's own types are not looked at
+        """Dask asks for this base class."""
+
+    if not client.nthreads():
+        warnings.warn(f"the cluster at '{address}' has no workers yet; the runs wait for one", stacklevel=4)
+    try:
+        client.register_plugin(Plugin(comparison))
+    except Exception as error:
+        raise ClusterError(f"a worker of the cluster at '{address}' cannot run statehtn: {_one_line(error)}") from None
+
+
+def _record(future: Future, run: Run, address: str) -> Record:
+    """Return what has come of a run that has ended.
+
+    Raises:
+        ClusterError: the cluster is lost, or the run could not be executed.
+    """
+    from distributed import KilledWorker
+    from distributed import TimeoutError as LateError
+
+    status = future.status
+    try:
+        if status != "cancelled":
+            record: Record = future.result(timeout=RESULT_SECONDS)
+            return record
+    except KilledWorker as error:
+        return Record(run, "killed", 1, 0.0, f"its workers were lost: {_one_line(error)}", None)
+    except (CancelledError, LateError, OSError):
+        pass
+    except Exception as error:
+        raise ClusterError(f"the run {' '.join(run.key)} failed on the cluster: {_one_line(error)}") from None
+    raise ClusterError(f"the Dask cluster at '{address}' is lost")
+
+
+def _leave(client: Client, comparison: str, futures: list[Future]) -> None:
+    """Cancel what is outstanding, end what is running, and leave; a cluster that is lost has nothing to cancel."""
+    logging.getLogger("distributed").setLevel(logging.CRITICAL + 1)
+    with suppress(Exception):
+        if client.status == "running":
+            client.cancel(futures, force=True)
+            client.unregister_worker_plugin(comparison)
+    with suppress(Exception):
+        client.close(timeout=CONNECT_SECONDS)
+
+
+def execute_parcel(parcel: Parcel) -> Record:
+    """Execute a run on a worker, from files in a temporary folder; messages name the client's.
+
+    Raises:
+        UsageError: this worker has another version of statehtn.
+        CancelledError: the run was ended from outside, and is to be done elsewhere if it is still wanted.
+        OSError: there is no place for the files, or no process can be started.
+    """
+    from distributed import get_worker
+
+    if statehtn.__version__ != parcel.version:
+        raise UsageError(f"a worker has statehtn {statehtn.__version__}, the client {parcel.version}")
+    children = get_worker().plugins[parcel.comparison].children
+    instance = parcel.run.instance
+    with TemporaryDirectory(prefix="statehtn-") as folder:
+        files = {}
+        for name, original, content in (
+            ("domain", instance.domain_file, parcel.domain),
+            ("problem", instance.problem_file, parcel.problem),
+        ):
+            path = Path(folder, name, Path(original).name)
+            path.parent.mkdir()
+            if content is not None:
+                path.write_bytes(zlib.decompress(content))
+            files[str(path)] = original
+        domain_file, problem_file = files
+        moved = replace(instance, domain_file=domain_file, problem_file=problem_file)
+        record = execute(replace(parcel.run, instance=moved), children)
+    if children.stopped or record.status == Status.INTERRUPTED:
+        raise CancelledError
+    message = record.message
+    for file, original in files.items():
+        message = message.replace(file, original)
+    return replace(record, run=parcel.run, message=message)
+
+
+def _content(file: Path) -> bytes | None:
+    with suppress(OSError):  # the run will say why
+        return zlib.compress(file.read_bytes())
+    return None
+
+
+def _one_line(error: BaseException) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())
