@@ -6,6 +6,7 @@ of its own there, too. Workers need the same version of statehtn.
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import uuid
 import warnings
@@ -85,7 +86,8 @@ def execute_on_cluster(runs: Sequence[Run], address: str) -> Generator[Record]:
     """
     client = _connect(address)
     comparison = f"statehtn-{uuid.uuid4().hex}"
-    waiting, outstanding = iter(runs), dict[str, tuple[Future, Run]]()
+    waiting = iter(runs)
+    outstanding: dict[str, tuple[Future, Run]] = {}
     ended: SimpleQueue[Future] = SimpleQueue()
     try:
         _prepare_workers(client, address, comparison)
@@ -111,23 +113,42 @@ def _key(comparison: str, run: Run) -> str:
 
 
 def _connect(address: str) -> Client:
+    """Return a client of the cluster.
+
+    Raises:
+        UsageError: the package `distributed` is missing, or the address makes no sense.
+        ClusterError: there is no scheduler.
+    """
     try:
         from distributed import Client
     except ImportError:
         raise UsageError(
             "running on a Dask cluster needs the package 'distributed': pip install 'statehtn[dask]'"
         ) from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it becomes an error here
+    logging.getLogger("distributed").setLevel(logging.CRITICAL + 1)  # what matters of it becomes an error here
     try:
-        return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
-    except (OSError, TimeoutError):
-        raise ClusterError(
-            f"no Dask scheduler answers at '{address}' within {CONNECT_SECONDS:g} s; is it running?"
-        ) from None
-    except (ValueError, TypeError, RuntimeError) as error:
-        raise UsageError(
-            f"'{address}' is no address of a Dask scheduler, such as tcp://127.0.0.1:8786: {error}"
-        ) from None
+        # A client that cannot connect takes long to give up, and complains when it is thrown away: ask first.
+        kind = asyncio.run(asyncio.wait_for(_kind_of(address), CONNECT_SECONDS))
+        if kind == "Scheduler":
+            return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+        found = f"a Dask {kind.lower()} answers"
+    except (ValueError, TypeError) as error:
+        raise UsageError(f"'{address}' is no address of a scheduler, such as tcp://127.0.0.1:8786: {error}") from None
+    except TimeoutError:
+        found = f"nothing answers within {CONNECT_SECONDS:g} s"
+    except OSError as error:
+        found = _one_line(error.__cause__ or error)
+    except Exception:
+        found = "something else answers"
+    raise ClusterError(f"there is no Dask scheduler at '{address}': {found}")
+
+
+async def _kind_of(address: str) -> str:
+    """Ask a server of Dask what it is."""
+    from distributed import Security, rpc
+
+    async with rpc(address, connection_args=Security().get_connection_args("client")) as server:
+        return str((await server.identity())["type"])
 
 
 def _prepare_workers(client: Client, address: str, comparison: str) -> None:
@@ -138,7 +159,7 @@ def _prepare_workers(client: Client, address: str, comparison: str) -> None:
     """
     from distributed import WorkerPlugin
 
-    class Plugin(RunsOfAComparison, WorkerPlugin):  # type: ignore[misc] - Dask's own types are not looked at
+    class Plugin(RunsOfAComparison, WorkerPlugin):  # type: ignore[misc]
         """Dask asks for this base class."""
 
     if not client.nthreads():
@@ -174,7 +195,6 @@ def _record(future: Future, run: Run, address: str) -> Record:
 
 def _leave(client: Client, comparison: str, futures: list[Future]) -> None:
     """Cancel what is outstanding, end what is running, and leave; a cluster that is lost has nothing to cancel."""
-    logging.getLogger("distributed").setLevel(logging.CRITICAL + 1)
     with suppress(Exception):
         if client.status == "running":
             client.cancel(futures, force=True)
