@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -103,10 +104,20 @@ def _execute(runs: list[Run], options: argparse.Namespace, keep: Show, progress:
     if not runs:
         return
     execution = execute_all(runs, options.jobs) if options.dask is None else execute_on_cluster(runs, options.dask)
-    with progress as show, closing(execution) as records:
+    with _no_logs(), progress as show, closing(execution) as records:
         for record in records:
             keep(record)
             show(record)
+
+
+@contextmanager
+def _no_logs() -> Iterator[None]:
+    """Keep what Dask logs off the terminal; what matters of it becomes an error or a record."""
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logging.disable(logging.NOTSET)
 
 
 def _show_nothing(_record: Record) -> None:

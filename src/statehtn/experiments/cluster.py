@@ -7,7 +7,7 @@ of its own there, too. Workers need the same version of statehtn.
 from __future__ import annotations
 
 import asyncio
-import logging
+import signal
 import uuid
 import warnings
 import zlib
@@ -55,6 +55,10 @@ class Parcel:
         """Read the files of a run."""
         domain, problem = (_content(Path(name)) for name in (run.instance.domain_file, run.instance.problem_file))
         return Parcel(run, domain, problem, statehtn.__version__, comparison)
+
+
+class RunInterruptedError(Exception):
+    """A run has not come to an end of its own; Dask gives it to a worker again."""
 
 
 class RunsOfAComparison:
@@ -125,7 +129,6 @@ def _connect(address: str) -> Client:
         raise UsageError(
             "running on a Dask cluster needs the package 'distributed': pip install 'statehtn[dask]'"
         ) from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL + 1)  # what matters of it becomes an error here
     try:
         # A client that cannot connect takes long to give up, and complains when it is thrown away: ask first.
         kind = asyncio.run(asyncio.wait_for(_kind_of(address), CONNECT_SECONDS))
@@ -185,7 +188,7 @@ def _record(future: Future, run: Run, address: str) -> Record:
             record: Record = future.result(timeout=RESULT_SECONDS)
             return record
     except KilledWorker as error:
-        return Record(run, "killed", 1, 0.0, f"its workers were lost: {_one_line(error)}", None)
+        return Record(run, "killed", -signal.SIGKILL, 0.0, f"its workers were lost: {_one_line(error)}", None)
     except (CancelledError, LateError, OSError):
         pass
     except Exception as error:
@@ -208,7 +211,7 @@ def execute_parcel(parcel: Parcel) -> Record:
 
     Raises:
         UsageError: this worker has another version of statehtn.
-        CancelledError: the run was ended from outside, and is to be done elsewhere if it is still wanted.
+        RunInterruptedError: the run was ended from outside, and is to be done elsewhere if it is still wanted.
         OSError: there is no place for the files, or no process can be started.
     """
     from distributed import get_worker
@@ -232,7 +235,7 @@ def execute_parcel(parcel: Parcel) -> Record:
         moved = replace(instance, domain_file=domain_file, problem_file=problem_file)
         record = execute(replace(parcel.run, instance=moved), children)
     if children.stopped or record.status == Status.INTERRUPTED:
-        raise CancelledError
+        raise RunInterruptedError("it was ended from outside")
     message = record.message
     for file, original in files.items():
         message = message.replace(file, original)
