@@ -12,6 +12,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -20,11 +21,13 @@ import statehtn
 import statehtn.experiments.cluster
 from statehtn.cli import main
 from statehtn.experiments.records import KEY_COLUMNS
+from statehtn.experiments.run import Grid
+from statehtn.experiments.suites import runs_of
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM
 
 EASY = 6
-HARD = 4
+HARD = 3
 HARD_SECONDS = 1
 PATIENCE = 20.0
 
@@ -145,12 +148,8 @@ def check_complete(tree: Path) -> None:
 
 
 @needs_proc
-def test_a_worker_is_killed_and_later_the_client_interrupted(tree: Path, cluster: Cluster) -> None:
+def test_the_client_is_interrupted(tree: Path, cluster: Cluster) -> None:
     client = start(tree, cluster.address)
-    wait_for(lambda: set(cluster.running().values()) == {worker.pid for worker in cluster.workers})
-    victim, survivor = cluster.workers
-    victim.kill()
-    wait_for(lambda: set(cluster.running().values()) == {survivor.pid})  # its run has ended with it
     wait_for(lambda: rows(tree) and cluster.running())
     client.send_signal(signal.SIGINT)
     output, errors = client.communicate(timeout=PATIENCE)
@@ -210,6 +209,23 @@ def test_what_goes_wrong_on_a_worker(
         assert found[name]["status"] == "input-error"
         assert str(tree / file) in found[name]["message"]
         assert str(cluster.folder) not in found[name]["message"]
+
+
+def test_a_run_that_kills_its_workers_is_recorded(tree: Path) -> None:
+    distributed = pytest.importorskip("distributed", reason="needs the package 'distributed'")
+
+    class GivenUp:
+        status = "error"
+
+        def result(self, **_: float) -> None:
+            raise distributed.KilledWorker("p0", SimpleNamespace(address="tcp://127.0.0.1:1"), 3)
+
+    run = runs_of("ipc", Grid(), tree)[0]
+    record = statehtn.experiments.cluster._record(GivenUp(), run, "")
+    assert (record.run, record.status, record.result) == (run, "killed", None)
+    assert "workers were lost" in record.message
+    assert "\n" not in record.message
+    assert record.row()["status"] == "killed"
 
 
 @pytest.mark.parametrize(

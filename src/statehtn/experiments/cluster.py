@@ -1,7 +1,7 @@
 """Execute runs on the workers of a Dask cluster; scheduling, retries and failures are Dask's business.
 
 A run travels with the text of its domain and problem, so that workers need no files of the client's, and is a process
-of its own there, too. Workers need the same version of statehtn.
+of its own there, too. Scheduler and workers need the same version of statehtn.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def execute_on_cluster(runs: Sequence[Run], address: str) -> Generator[Record]:
     outstanding: dict[str, tuple[Future, Run]] = {}
     ended: SimpleQueue[Future] = SimpleQueue()
     try:
-        _prepare_workers(client, address, comparison)
+        _prepare(client, address, comparison)
         while True:
             for run in islice(waiting, OUTSTANDING - len(outstanding)):
                 parcel = Parcel.of(run, comparison)
@@ -133,7 +133,9 @@ def _connect(address: str) -> Client:
         # A client that cannot connect takes long to give up, and complains when it is thrown away: ask first.
         kind = asyncio.run(asyncio.wait_for(_kind_of(address), CONNECT_SECONDS))
         if kind == "Scheduler":
-            return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+            with warnings.catch_warnings():  # of other packages whose versions differ
+                warnings.simplefilter("ignore")
+                return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
         found = f"a Dask {kind.lower()} answers"
     except (ValueError, TypeError) as error:
         raise UsageError(f"'{address}' is no address of a scheduler, such as tcp://127.0.0.1:8786: {error}") from None
@@ -154,23 +156,26 @@ async def _kind_of(address: str) -> str:
         return str((await server.identity())["type"])
 
 
-def _prepare_workers(client: Client, address: str, comparison: str) -> None:
-    """Have all workers, and those yet to come, ready for the runs of a comparison.
+def _prepare(client: Client, address: str, comparison: str) -> None:
+    """Have the scheduler and all workers, those yet to come, too, ready for the runs of a comparison.
 
     Raises:
-        ClusterError: a worker is not able to.
+        ClusterError: one is not able to.
     """
     from distributed import WorkerPlugin
 
     class Plugin(RunsOfAComparison, WorkerPlugin):  # type: ignore[misc]
         """Dask asks for this base class."""
 
-    if not client.nthreads():
-        warnings.warn(f"the cluster at '{address}' has no workers yet; the runs wait for one", stacklevel=4)
+    who = "the scheduler"
     try:
+        client.run_on_scheduler(check_version, statehtn.__version__)
+        who = "a worker"
         client.register_plugin(Plugin(comparison))
     except Exception as error:
-        raise ClusterError(f"a worker of the cluster at '{address}' cannot run statehtn: {_one_line(error)}") from None
+        raise ClusterError(f"{who} of the cluster at '{address}' cannot run statehtn: {_one_line(error)}") from None
+    if not client.nthreads():
+        warnings.warn(f"the cluster at '{address}' has no workers yet; the runs wait for one", stacklevel=4)
 
 
 def _record(future: Future, run: Run, address: str) -> Record:
@@ -192,7 +197,9 @@ def _record(future: Future, run: Run, address: str) -> Record:
     except (CancelledError, LateError, OSError):
         pass
     except Exception as error:
-        raise ClusterError(f"the run {' '.join(run.key)} failed on the cluster: {_one_line(error)}") from None
+        raise ClusterError(
+            f"the run {' '.join(filter(None, run.key))} failed on the cluster: {_one_line(error)}"
+        ) from None
     raise ClusterError(f"the Dask cluster at '{address}' is lost")
 
 
@@ -210,14 +217,13 @@ def execute_parcel(parcel: Parcel) -> Record:
     """Execute a run on a worker, from files in a temporary folder; messages name the client's.
 
     Raises:
-        UsageError: this worker has another version of statehtn.
+        UsageError: another version of statehtn is here.
         RunInterruptedError: the run was ended from outside, and is to be done elsewhere if it is still wanted.
         OSError: there is no place for the files, or no process can be started.
     """
     from distributed import get_worker
 
-    if statehtn.__version__ != parcel.version:
-        raise UsageError(f"a worker has statehtn {statehtn.__version__}, the client {parcel.version}")
+    check_version(parcel.version)
     children = get_worker().plugins[parcel.comparison].children
     instance = parcel.run.instance
     with TemporaryDirectory(prefix="statehtn-") as folder:
@@ -240,6 +246,16 @@ def execute_parcel(parcel: Parcel) -> Record:
     for file, original in files.items():
         message = message.replace(file, original)
     return replace(record, run=parcel.run, message=message)
+
+
+def check_version(version: str) -> None:
+    """Check on another machine that it has the client's version of statehtn.
+
+    Raises:
+        UsageError: it has not.
+    """
+    if statehtn.__version__ != version:
+        raise UsageError(f"it has version {statehtn.__version__}, the client {version}")
 
 
 def _content(file: Path) -> bytes | None:
