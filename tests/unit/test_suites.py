@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import warnings
 from collections import Counter
 from itertools import groupby, product
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from statehtn.cli import main
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES
 from statehtn.errors import InputError, StateHtnError, UsageError
@@ -171,6 +173,16 @@ def test_a_file(tree: Path) -> None:
     assert settings(runs_of(suite(tree, FILE), Grid(heuristics=("blind",), repeat=1, agents=(("neutral", None),)))) == {
         ("neutral", None, "state", "blind", "astar")
     }
+
+
+def test_a_file_on_the_command_line(tree: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output = tree / "results.csv"
+    for _ in range(2):
+        options = ["--suite", suite(tree, FILE), "--problem", "p2", "--output", str(output)]
+        assert main(["compare", *options, "--heuristic", "blind", "--jobs", "2"]) == 0
+    (row,) = csv.DictReader(output.read_text().splitlines())
+    assert [row[name] for name in ("domain", "problem", "heuristic", "status")] == ["other", "p2", "blind", "optimal"]
+    assert capsys.readouterr().err == ""
 
 
 RUNS = '[[runs]]\ndomain = "trips/domain.hddl"\nproblems = "trips/p1.hddl"\n'
