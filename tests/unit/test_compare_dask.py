@@ -218,7 +218,10 @@ def test_a_run_that_kills_its_workers_is_recorded(tree: Path) -> None:
         status = "error"
 
         def result(self, **_: float) -> None:
-            raise distributed.KilledWorker("p0", SimpleNamespace(address="tcp://127.0.0.1:1"), 3)
+            raise self.exception()
+
+        def exception(self) -> Exception:
+            return distributed.KilledWorker("p0", SimpleNamespace(address="tcp://127.0.0.1:1"), 3)
 
     run = runs_of("ipc", Grid(), tree)[0]
     record = statehtn.experiments.cluster._record(GivenUp(), run, "")

@@ -12,7 +12,6 @@ import uuid
 import warnings
 import zlib
 from collections.abc import Generator, Sequence
-from concurrent.futures import CancelledError
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -32,8 +31,8 @@ if TYPE_CHECKING:
     from distributed import Client, Future
 
 CONNECT_SECONDS = 5.0
-RESULT_SECONDS = 60.0
-"""How long to wait for a record that is there: where its worker is lost meanwhile, Dask makes it once more."""
+RESULT_SECONDS = 10.0
+"""How long to wait for a record that is there; it is not if its worker was lost after it had made it."""
 OUTSTANDING = 1000
 """So many runs are with the cluster at once, at most; it keeps their problems in memory."""
 RETRIES = 3
@@ -67,10 +66,9 @@ class RunsOfAComparison:
     def __init__(self, comparison: str) -> None:
         self.name = comparison
 
-    def setup(self, worker: Any) -> None:
+    def setup(self, worker: Any) -> None:  # noqa: ARG002 - Dask passes it
         """Keep a list of what is running on this worker."""
         self.children = Children()
-        self._worker = worker
 
     def teardown(self, worker: Any) -> None:  # noqa: ARG002 - Dask passes it
         """End what is running."""
@@ -105,8 +103,11 @@ def execute_on_cluster(runs: Sequence[Run], address: str) -> Generator[Record]:
                 return
             future = ended.get()
             record = _record(future, outstanding[future.key][1], address)
-            del outstanding[future.key]
-            yield record
+            if record is None:
+                future.add_done_callback(ended.put)
+            else:
+                del outstanding[future.key]
+                yield record
     finally:
         _leave(client, comparison, [future for future, _ in outstanding.values()])
 
@@ -178,8 +179,8 @@ def _prepare(client: Client, address: str, comparison: str) -> None:
         warnings.warn(f"the cluster at '{address}' has no workers yet; the runs wait for one", stacklevel=4)
 
 
-def _record(future: Future, run: Run, address: str) -> Record:
-    """Return what has come of a run that has ended.
+def _record(future: Future, run: Run, address: str) -> Record | None:
+    """Return what has come of a run that has ended; None if that is lost with its worker, and Dask executes it again.
 
     Raises:
         ClusterError: the cluster is lost, or the run could not be executed.
@@ -187,19 +188,20 @@ def _record(future: Future, run: Run, address: str) -> Record:
     from distributed import KilledWorker
     from distributed import TimeoutError as LateError
 
-    status = future.status
     try:
-        if status != "cancelled":
-            record: Record = future.result(timeout=RESULT_SECONDS)
-            return record
-    except KilledWorker as error:
-        return Record(run, "killed", -signal.SIGKILL, 0.0, f"its workers were lost: {_one_line(error)}", None)
-    except (CancelledError, LateError, OSError):
-        pass
-    except Exception as error:
-        raise ClusterError(
-            f"the run {' '.join(filter(None, run.key))} failed on the cluster: {_one_line(error)}"
-        ) from None
+        record: Record = future.result(timeout=RESULT_SECONDS)
+    except LateError:
+        if future.client.status == "running":
+            return None
+    except Exception:
+        error = future.exception() if future.status == "error" else None
+        if isinstance(error, KilledWorker):
+            return Record(run, "killed", -signal.SIGKILL, 0.0, f"its workers were lost: {_one_line(error)}", None)
+        if error is not None:
+            name = " ".join(filter(None, run.key))
+            raise ClusterError(f"the run {name} failed on the cluster: {_one_line(error)}") from None
+    else:
+        return record
     raise ClusterError(f"the Dask cluster at '{address}' is lost")
 
 
