@@ -6,9 +6,9 @@ import argparse
 import sys
 
 from statehtn.errors import UsageError
-from statehtn.experiments.generate import satellite
+from statehtn.experiments.generate import av, satellite
 
-FAMILIES = {"satellite": satellite}
+FAMILIES = {"av": av, "satellite": satellite}
 
 
 def main() -> int:
