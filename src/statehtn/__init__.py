@@ -9,6 +9,7 @@ print(result)
 
 from __future__ import annotations
 
+from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
@@ -36,6 +37,7 @@ __all__ = [
     "Plan",
     "PricedStep",
     "Problem",
+    "ProblemBuilder",
     "Progress",
     "Result",
     "StateHtnError",
@@ -46,12 +48,18 @@ __all__ = [
     "Utility",
     "Validation",
     "__version__",
+    "chance",
+    "equal",
+    "exists",
+    "forall",
     "plan",
     "read_hddl",
     "read_hddl_text",
     "read_plan",
     "utility_for",
     "validate",
+    "when",
+    "with_cost",
     "write_hddl",
     "write_plan",
 ]
