@@ -20,6 +20,7 @@ from statehtn.model.status import Status
 from statehtn.planner import SOLVERS, plan
 from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
+from statehtn.tabulate import tabulate_costs
 from statehtn.validate import Validation, validate
 
 __all__ = [
@@ -56,6 +57,7 @@ __all__ = [
     "read_hddl",
     "read_hddl_text",
     "read_plan",
+    "tabulate_costs",
     "utility_for",
     "validate",
     "when",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
-from statehtn.build.declarations import Declarations
+from statehtn.build.declarations import Declarations, Scope
 from statehtn.build.domain_builder import DomainBuilder, declared_in
 from statehtn.build.names import new_name
 from statehtn.build.networks import Occurrence, Ordering, network_of
@@ -70,7 +70,7 @@ class ProblemBuilder(DomainBuilder):
         for fact in facts:
             if not isinstance(fact, Atom):
                 raise UsageError(f"a fact is an atom such as at(l1), found {fact!r}; what is not stated is false")
-            self._declared.check_formula(fact, {})
+            self._declared.check_formula(fact, Scope())
         self._facts.update((fact.predicate, *fact.arguments) for fact in facts)
 
     def set_values(self, values: Mapping[FunctionTerm, Amount]) -> None:
@@ -78,7 +78,7 @@ class ProblemBuilder(DomainBuilder):
         for term in values:
             if not isinstance(term, FunctionTerm):
                 raise UsageError(f"expected a function of objects, such as fare(a, b), found {term!r}")
-            self._declared.check_expression(term, {})
+            self._declared.check_expression(term, Scope())
         self._values.update({(term.function, *term.arguments): exact(value) for term, value in values.items()})
 
     def set_network(
@@ -101,7 +101,7 @@ class ProblemBuilder(DomainBuilder):
     def set_goal(self, goal: Combinable) -> None:
         """Set a formula that holds in the end, besides the tasks being accomplished."""
         formula = checked_formula(goal, "a goal")
-        self._declared.check_formula(formula, {})
+        self._declared.check_formula(formula, Scope())
         self._goal = formula
 
     def build(self) -> Problem:

@@ -31,6 +31,6 @@ def read_condition(text: str, scope: Scope, declared: Declarations) -> Formula:
         if len(source.sections) != 1:
             raise UsageError("expected one formula in parentheses")
         reporter = Reporter(source, Diagnostics(strict=True))
-        return FormulaReader(vocabulary, reporter).read(parse_group(source, source.sections[0][0]), scope)
+        return FormulaReader(vocabulary, reporter).read(parse_group(source, source.sections[0][0]), scope.variables)
     except StateHtnError as error:
         raise UsageError(f"the condition '{text}': {error.message}") from None

@@ -29,8 +29,19 @@ from statehtn.model import (
 )
 
 Types = tuple[str, ...]
-Scope = Mapping[str, Types]
-"""The variables that may be used, with their types."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What may be used at some place.
+
+    Args:
+        variables: the variables with their types.
+        in_domain: only constants may be named, as the domain does not know the problem's objects.
+    """
+
+    variables: Mapping[str, Types] = field(default_factory=dict)
+    in_domain: bool = False
 
 
 @dataclass(slots=True)
@@ -112,7 +123,7 @@ class Declarations:
                 for operand in operands:
                     self.check_formula(operand, scope)
             case Exists(parameters, body) | Forall(parameters, body):
-                self.check_formula(body, {**scope, **self.scope(parameters)})
+                self.check_formula(body, self.extended(scope, parameters))
 
     def check_expression(self, expression: Expression, scope: Scope) -> None:
         """Check every name in a cost or probability expression.
@@ -129,11 +140,16 @@ class Declarations:
                 for operand in operands:
                     self.check_expression(operand, scope)
 
-    def scope(self, parameters: Sequence[Parameter]) -> dict[str, Types]:
-        """Return the types of variables, all of which are declared."""
+    def scope(self, parameters: Sequence[Parameter], in_domain: bool = False) -> Scope:
+        """Return the scope of variables, whose types are all declared."""
+        return self.extended(Scope(in_domain=in_domain), parameters)
+
+    def extended(self, scope: Scope, parameters: Sequence[Parameter]) -> Scope:
+        """Return a scope with more variables, which hide those of the same name."""
         for parameter in parameters:
             self.check_types(parameter.types)
-        return {parameter.name: parameter.types for parameter in parameters}
+        added = {parameter.name: parameter.types for parameter in parameters}
+        return Scope({**scope.variables, **added}, scope.in_domain)
 
     def check_types(self, types: Types) -> None:
         """Raise a `UsageError` if one of the types is not declared."""
@@ -144,25 +160,26 @@ class Declarations:
     def _types_of(self, term: Term, scope: Scope | None) -> tuple[str, Types]:
         """Return whether a term is a variable or an object, and its types."""
         if isinstance(term, Parameter):
-            if scope is not None and scope.get(term.name) != term.types:
-                raise not_declared("variable", str(term), scope)
+            if scope is not None and term.types != scope.variables.get(term.name):
+                raise UsageError(f"variable '{term}' is not one of the parameters{_shown(scope)}")
             return "variable", term.types
         if isinstance(term, Object):
-            kind = self.type_of(term.name)
-            if kind != term.type:
+            if self.type_of(term.name) != term.type:
                 raise UsageError(f"object '{term.name}' of type '{term.type}' is not declared in this builder")
-            return "object", (kind,)
+            term = term.name
         if not isinstance(term, str):
             raise UsageError(f"expected a variable, an object or the name of an object, found {term!r}")
         if term.startswith("?"):
             if scope is None:
                 raise UsageError(f"a variable needs a type: use Type.variables('{term[1:]}') instead of '{term}'")
-            if term not in scope:
-                raise UsageError(f"{not_declared('variable', term, scope).message}{_declared_variables(scope)}")
-            return "variable", scope[term]
+            if term not in scope.variables:
+                raise UsageError(f"variable '{term}' is not one of the parameters{_shown(scope)}")
+            return "variable", scope.variables[term]
         kind = self.type_of(term)
         if kind is None:
             raise not_declared("object", term, (*self.constants, *self.objects))
+        if scope is not None and scope.in_domain and term not in self.constants:
+            raise UsageError(f"'{term}' is an object of the problem; a domain names constants, see Type.constants()")
         return "object", (kind,)
 
     def _overlap(self, types: Types, wanted: Types, is_object: bool) -> bool:
@@ -176,8 +193,9 @@ class Declarations:
         )
 
 
-def _declared_variables(scope: Scope) -> str:
-    return f" (there are {', '.join(scope)})" if scope else " (there are no parameters)"
+def _shown(scope: Scope) -> str:
+    names = ", ".join(str(Parameter(name, types)) for name, types in scope.variables.items())
+    return f" ({names})" if names else ", as there are none"
 
 
 def _alternatives(types: Types) -> str:

@@ -98,7 +98,7 @@ class DomainBuilder:
         declared = self._declared
         new_name(name, "action", ("task", declared.tasks), ("action", declared.actions))
         signature = self._signature(name, parameters)
-        scope = declared.scope(signature.parameters)
+        scope = declared.scope(signature.parameters, in_domain=True)
         condition = checked_formula(precondition, "'precondition'")
         declared.check_formula(condition, scope)
         action = Action(
@@ -106,7 +106,7 @@ class DomainBuilder:
             signature.parameters,
             condition,
             effects_of(effects, scope, declared),
-            costs_of(cost, name, signature.parameters, declared),
+            costs_of(cost, name, signature.parameters, scope, declared),
         )
         declared.actions[name] = action
         return Task(signature, True, declared)
@@ -142,7 +142,7 @@ class DomainBuilder:
         if parameters is None:
             parameters = dict.fromkeys(term for term in task.terms if isinstance(term, Parameter))
         variables = checked_variables(parameters)
-        scope = declared.scope(variables)
+        scope = declared.scope(variables, in_domain=True)
         arguments = declared.arguments("task", declared.tasks[task.task], task.terms, scope)
         condition = checked_formula(precondition, "'precondition'")
         declared.check_formula(condition, scope)
@@ -171,12 +171,12 @@ class DomainBuilder:
         if not costs:
             raise UsageError(f"expected a cost for action '{name}', found none; 0 is a cost, too")
         old = declared.actions[name]
+        scope = declared.scope(old.parameters)  # a problem's costs may name its objects
         if when is None:
-            declared.actions[name] = replace(old, costs=costs_of(costs, name, old.parameters, declared))
+            declared.actions[name] = replace(old, costs=costs_of(costs, name, old.parameters, scope, declared))
             return
-        scope = declared.scope(old.parameters)
         condition = read_condition(when, scope, declared) if isinstance(when, str) else checked_formula(when, "'when'")
-        new = costs_of(When(condition, costs), name, old.parameters, declared)
+        new = costs_of(When(condition, costs), name, old.parameters, scope, declared)
         kept = tuple(block for block in old.costs if block.condition != condition or block.parameters)
         declared.actions[name] = replace(old, costs=(*kept, *new))
 

@@ -131,7 +131,7 @@ def effects_of(parts: object, scope: Scope, declared: Declarations) -> tuple[Eff
 
 
 def costs_of(
-    parts: object, action: str, parameters: tuple[Parameter, ...], declared: Declarations
+    parts: object, action: str, parameters: tuple[Parameter, ...], scope: Scope, declared: Declarations
 ) -> tuple[CostBlock, ...]:
     """Return the cost blocks that the parts of an action stand for; they are independent and add up.
 
@@ -139,7 +139,6 @@ def costs_of(
         UsageError: a part is no cost, or a name in it is wrong.
     """
     found = []
-    scope = declared.scope(parameters)
     for part, condition, bound, inner in _parts(_listed(parts), TRUE, (), scope, declared):
         if _is_external(part):
             found.append(CostBlock((), condition, bound, external(action, parameters, part)))
@@ -174,9 +173,9 @@ def _parts(
 
 def _joined(scope: Scope, bound: tuple[Parameter, ...], declared: Declarations) -> Scope:
     for parameter in bound:
-        if parameter.name in scope:
+        if parameter.name in scope.variables:
             raise UsageError(f"variable '{parameter.name}' of 'forall' is a variable around it, too; use another name")
-    return {**scope, **declared.scope(bound)}
+    return declared.extended(scope, bound)
 
 
 def _listed(parts: object) -> Sequence[object]:
