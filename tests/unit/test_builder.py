@@ -168,7 +168,7 @@ def test_reprs_read(d: Deliveries) -> None:
     assert repr(d.go) == "<task (go ?v - vehicle ?b - place)>"
     assert repr(drive) == "<action (drive ?v - vehicle ?a - place ?b - place)>"
     assert str(drive("t1", d.home, d.b)) == "(drive t1 home ?b)"
-    assert "3 objects" in repr(d.build)
+    assert "objects 3" in repr(d.build)
     assert d.home == Object("home", "place")
 
 
@@ -251,6 +251,8 @@ WRONG: list[tuple[Callable[[Deliveries], object], str]] = [
         "a constraint speaks of variables only (equal() and OfType), found (icy ?b)",
     ),
     (lambda d: d.build.set_network(d.go(d.t1, d.work), ordering="partial"), "an ordering is 'total' or pairs"),  # type: ignore[arg-type]
+    (lambda d: d.build.set_network(d.go(d.t1, d.work, label="a b")), "'a b' cannot name a label"),
+    (lambda d: d.build.set_network([d.go(d.t1, d.work, label="x")] * 2), "label 'x' stands twice in one network"),
     (lambda d: d.build.set_network([d.go(d.t1, d.b)]), "variable '?b - place' is not one of the parameters"),
     (lambda d: d.build.build(), "problem 'p' has nothing to do yet: give it tasks by set_network(...)"),
     # the initial state

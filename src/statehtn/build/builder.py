@@ -135,4 +135,4 @@ class ProblemBuilder(DomainBuilder):
             "methods": declared.methods,
             "facts": self._facts,
         }
-        return f"<builder of '{self.name}': {', '.join(f'{len(found)} {what}' for what, found in counts.items())}>"
+        return f"<builder of '{self.name}': {', '.join(f'{what} {len(found)}' for what, found in counts.items())}>"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from inspect import signature
 from typing import Any
 
 from statehtn.errors import InputError, StateHtnError, UsageError
@@ -46,8 +47,6 @@ def external(action: str, parameters: tuple[Parameter, ...], function: ExternalC
     Raises:
         UsageError: it cannot be called with that many arguments.
     """
-    from inspect import signature  # takes as long as a tenth of the library
-
     try:
         expected = signature(function)
     except (TypeError, ValueError):  # some built-in functions do not tell

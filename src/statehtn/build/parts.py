@@ -179,7 +179,8 @@ def _joined(scope: Scope, bound: tuple[Parameter, ...], declared: Declarations) 
 
 
 def _listed(parts: object) -> Sequence[object]:
-    return list(parts) if isinstance(parts, list | tuple) else [parts]
+    is_several = isinstance(parts, Iterable) and not isinstance(parts, str) and not callable(parts)
+    return list(parts) if is_several else [parts]
 
 
 def _is_external(part: object) -> TypeGuard[ExternalCost]:
