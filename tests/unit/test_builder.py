@@ -221,6 +221,11 @@ WRONG: list[tuple[Callable[[Deliveries], object], str]] = [
         lambda d: d.build.action("x", effects=d.icy(d.home)),
         "'home' is an object of the problem; a domain names constants",
     ),
+    (lambda d: when(d.closed()), "'when' has a condition and what is due under it, found the condition alone"),
+    (lambda d: d.build.action("x", 5), "expected variables such as Type.variables() makes, found 5"),  # type: ignore[arg-type]
+    (lambda d: d.build.action("x", cost={1: 2}), "a cost is a number"),  # type: ignore[arg-type]
+    (lambda d: d.build.set_network(None), "expected a task with its arguments, such as drive(a, b), found None"),  # type: ignore[arg-type]
+    (lambda d: d.build.set_values(3), "expected a mapping such as {fare(a, b): 4}, found 3"),  # type: ignore[arg-type]
     (lambda d: when(True, d.closed()), "the condition of 'when' must be a formula, found True"),  # type: ignore[arg-type]
     # costs
     (lambda d: d.drive(cost=-1), "a cost must not be negative, found -1"),

@@ -75,6 +75,8 @@ class ProblemBuilder(DomainBuilder):
 
     def set_values(self, values: Mapping[FunctionTerm, Amount]) -> None:
         """Give functions their values, such as `{fare(a, b): 4}`; a second value replaces the first."""
+        if not isinstance(values, Mapping):
+            raise UsageError(f"expected a mapping such as {{fare(a, b): 4}}, found {values!r}")
         for term in values:
             if not isinstance(term, FunctionTerm):
                 raise UsageError(f"expected a function of objects, such as fare(a, b), found {term!r}")

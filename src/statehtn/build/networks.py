@@ -67,7 +67,7 @@ def network_of(
 
 
 def _occurrences(subtasks: Occurrence | Iterable[Occurrence]) -> tuple[Occurrence, ...]:
-    found = (subtasks,) if isinstance(subtasks, Occurrence) else tuple(subtasks)
+    found = tuple(subtasks) if isinstance(subtasks, Iterable) else (subtasks,)
     for occurrence in found:
         if not isinstance(occurrence, Occurrence):
             hint = "; call the task with its arguments" if callable(occurrence) else ""

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -69,6 +69,8 @@ def when(condition: Combinable, *parts: EffectPart | CostPart) -> When:
 
     Costs of several conditions that hold at once add up.
     """
+    if not parts:
+        raise UsageError("'when' has a condition and what is due under it, found the condition alone")
     return When(checked_formula(condition, "the condition of 'when'"), parts)
 
 
@@ -179,8 +181,9 @@ def _joined(scope: Scope, bound: tuple[Parameter, ...], declared: Declarations) 
 
 
 def _listed(parts: object) -> Sequence[object]:
-    is_several = isinstance(parts, Iterable) and not isinstance(parts, str) and not callable(parts)
-    return list(parts) if is_several else [parts]
+    if isinstance(parts, Iterable) and not isinstance(parts, str | Mapping) and not callable(parts):
+        return list(parts)
+    return [parts]
 
 
 def _is_external(part: object) -> TypeGuard[ExternalCost]:

@@ -71,6 +71,8 @@ def checked_variables(variables: Iterable[Parameter]) -> tuple[Parameter, ...]:
     """
     if isinstance(variables, Parameter):
         variables = (variables,)
+    if not isinstance(variables, Iterable):
+        raise UsageError(f"expected variables such as Type.variables() makes, found {variables!r}")
     found = tuple(variables)
     for variable in found:
         if not isinstance(variable, Parameter):
