@@ -37,6 +37,7 @@ def vehicle() -> statehtn.Problem:
     traffic = when(~slippery(frm, to), chance((1 - p_jam(frm, to), free(frm, to)), (p_jam(frm, to), jam(frm, to))))
     stable, unstable = slippery(frm, to) & esp(), slippery(frm, to) & ~esp()
     length = ice(frm, to)
+    # (1 * length, as the HDDL has it: the two problems are equal, and a test says so.)
     fast = [when(stable, chance((0.2, 1 * length), (0.8, 11 * length)))]
     fast += [when(unstable, chance((0.1, 0.5 * length), (0.9, 16 * length)))]
     slow = [when(stable, 9 * length), when(unstable, chance((0.2, 6 * length), (0.8, 11 * length)))]
