@@ -9,7 +9,9 @@ import pytest
 from tests.pages import ROOT, blocks, run_page
 
 PAGES = [
-    path for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))) if "```python" in path.read_text()
+    path
+    for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+    if any(block.language == "python" and not block.is_skipped for block in blocks(path.read_text(encoding="utf-8")))
 ]
 
 
