@@ -36,8 +36,8 @@ def compare(domain: str, problem: str, alpha: float = 0.9) -> None:
             utility = statehtn.utility_for(other, value)
             cost = math.fsum(utility.risk_cost(law) for law in laws)
             cells.append(f"{cost:11.4g}{'*' if other == name else ' '}")
-        row = f"{'of the ' + name:20} {least:8.4g} {result.expected_cost:9.4g} {most:8.4g}   {' '.join(cells)}"
-        print(row.rstrip())
+        line = f"{'of the ' + name:20} {least:8.4g} {result.expected_cost:9.4g} {most:8.4g}   {' '.join(cells)}"
+        print(line.rstrip())
     print("\n'for averse' and so on: the certainty equivalent, a certain cost that such an agent finds exactly as bad")
     print("* proven: no plan has a lower one for this agent")
 

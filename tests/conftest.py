@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from hypothesis import HealthCheck, settings
+from hypothesis.vendor.pretty import RepresentationPrinter, for_type_by_name
+
+from statehtn import Problem, write_hddl
 
 SUPPRESSED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 
@@ -10,3 +13,11 @@ settings.register_profile("dev", max_examples=30, deadline=None, suppress_health
 settings.register_profile("ci", max_examples=150, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
 settings.load_profile("dev")
+
+
+def show_problem(problem: Problem, printer: RepresentationPrinter, _cycle: bool) -> None:
+    """Show a falsifying example as HDDL; `repr` only counts."""
+    printer.text("\n".join(("", *write_hddl(problem))))
+
+
+for_type_by_name("statehtn.model.problem", "Problem", show_problem)

@@ -9,6 +9,7 @@ print(result)
 
 from __future__ import annotations
 
+from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
@@ -19,6 +20,7 @@ from statehtn.model.status import Status
 from statehtn.planner import SOLVERS, plan
 from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
+from statehtn.tabulate import tabulate_costs
 from statehtn.validate import Validation, validate
 
 __all__ = [
@@ -36,6 +38,7 @@ __all__ = [
     "Plan",
     "PricedStep",
     "Problem",
+    "ProblemBuilder",
     "Progress",
     "Result",
     "StateHtnError",
@@ -46,12 +49,19 @@ __all__ = [
     "Utility",
     "Validation",
     "__version__",
+    "chance",
+    "equal",
+    "exists",
+    "forall",
     "plan",
     "read_hddl",
     "read_hddl_text",
     "read_plan",
+    "tabulate_costs",
     "utility_for",
     "validate",
+    "when",
+    "with_cost",
     "write_hddl",
     "write_plan",
 ]

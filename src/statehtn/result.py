@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from statehtn.display.result import result_html, result_text
 from statehtn.effort import Statistics
 from statehtn.model.costs import CostDistribution
 from statehtn.model.plan import Plan, Step
@@ -133,12 +134,7 @@ class Result:
         }
 
     def __str__(self) -> str:
-        """Return the status, the actions and the plan's price in plain lines."""
-        lines = [f"status: {self.status}"]
-        lines += [f"  {index}. {priced.step}  cost {priced.law}" for index, priced in enumerate(self.steps, 1)]
-        if self.plan is not None:
-            lines.append(f"expected cost {self.expected_cost:.10g}, certainty equivalent {self.risk_cost:.10g}")
-            lines.append(f"expected utility {self.expected_utility} ({self.attitude})")
-        elif self.lower_bound is not None:
-            lines.append(f"every plan has a certainty-equivalent cost of at least {self.lower_bound:.10g}")
-        return "\n".join(lines)
+        return result_text(self)
+
+    def _repr_html_(self) -> str:
+        return result_html(self)

@@ -194,6 +194,8 @@ def _laws(encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> l
         elif schema in shared:
             laws.append(shared[schema])
         else:
+            if any(block.external for block in action.costs):
+                limits.check()  # a callable may take its time
             arguments = tuple(encoding.objects[object_] for object_ in handle.action_arguments(number))
             parts = _active_parts(encoding, handle.action_cost_parts(number))
             laws.append(action_law(action, arguments, parts, values, unit_costs))

@@ -144,7 +144,10 @@ def _effect(effect: Effect) -> str:
 
 def _cost_block(block: CostBlock, action: Action) -> str:
     if block.external is not None:
-        raise UnsupportedError(f"the cost of action '{action.name}' is a Python callable and cannot be written as HDDL")
+        raise UnsupportedError(
+            f"the cost of action '{action.name}' is a Python callable and cannot be written as HDDL; "
+            f"statehtn.tabulate_costs(problem) gives an equivalent problem with numbers"
+        )
     match block.branches:
         case ((Number(probability), cost),) if probability == 1:
             text = _increase(cost)

@@ -8,9 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from decimal import Decimal
 from fractions import Fraction
+from numbers import Rational, Real
+from typing import cast
 
-from statehtn.errors import InputError, Place
+from statehtn.errors import InputError, Place, UsageError
 from statehtn.model.formula import TRUE, Formula
 from statehtn.model.types import Parameter
 
@@ -69,15 +72,70 @@ class CostDistribution:
         return ", ".join(f"{cost:g} w.p. {probability:g}" for probability, cost in self.outcomes)
 
 
+Amount = float | Fraction | Decimal
+"""A number as Python has it; numbers of numpy will do, too."""
+
+
+def exact(number: Amount) -> Fraction:
+    """Return a number as a fraction; a float means the decimal that it prints as.
+
+    Raises:
+        UsageError: it is not finite, or no number.
+    """
+    if not isinstance(number, Real | Decimal) or isinstance(number, bool):
+        raise UsageError(f"expected a number, found {number!r}")
+    try:
+        return Fraction(number) if isinstance(number, Rational | Decimal) else Fraction(repr(float(number)))
+    except (ValueError, OverflowError):
+        raise UsageError(f"expected a finite number, found {number}") from None
+
+
+class Computable:
+    """What all expressions can do: `e + f`, `e - f`, `e * f` and `-e`, where one side may be a number."""
+
+    __slots__ = ()
+
+    def __add__(self, other: Computable | Amount) -> Arithmetic:
+        return _arithmetic("+", self, other)
+
+    def __radd__(self, other: Amount) -> Arithmetic:
+        return _arithmetic("+", other, self)
+
+    def __sub__(self, other: Computable | Amount) -> Arithmetic:
+        return _arithmetic("-", self, other)
+
+    def __rsub__(self, other: Amount) -> Arithmetic:
+        return _arithmetic("-", other, self)
+
+    def __mul__(self, other: Computable | Amount) -> Arithmetic:
+        return _arithmetic("*", self, other)
+
+    def __rmul__(self, other: Amount) -> Arithmetic:
+        return _arithmetic("*", other, self)
+
+    def __neg__(self) -> Arithmetic:
+        return Arithmetic("-", (cast("Expression", self),))
+
+
+def _arithmetic(operator: str, *operands: object) -> Arithmetic:
+    return Arithmetic(
+        operator,
+        tuple(
+            cast("Expression", operand) if isinstance(operand, Computable) else Number(exact(cast("Amount", operand)))
+            for operand in operands
+        ),
+    )
+
+
 @dataclass(frozen=True, slots=True)
-class Number:
+class Number(Computable):
     """A constant, exactly as written."""
 
     value: Fraction
 
 
 @dataclass(frozen=True, slots=True)
-class FunctionTerm:
+class FunctionTerm(Computable):
     """A function of the parameters whose value stands in the problem's `:init`."""
 
     function: str
@@ -85,7 +143,7 @@ class FunctionTerm:
 
 
 @dataclass(frozen=True, slots=True)
-class Arithmetic:
+class Arithmetic(Computable):
     """A sum, difference or product of expressions; `operator` is one of `+ - *`.
 
     A difference of one operand negates it.

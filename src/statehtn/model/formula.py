@@ -1,18 +1,48 @@
 """Formulas of preconditions, goals, constraints and conditions; implication is read as a disjunction.
 
-A term is a string: a variable where it starts with a question mark, otherwise the name of an object.
+A term is a string: a variable where it starts with a question mark, otherwise the name of an object. Formulas combine
+by `&`, `|` and `~`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NoReturn, cast
 
+from statehtn.errors import UsageError
 from statehtn.model.types import Parameter
 
 
+class Combinable:
+    """What all formulas can do: `f & g`, `f | g` and `~f`, which flatten what was combined by the same sign before."""
+
+    __slots__ = ()
+
+    def __and__(self, other: Combinable) -> And:
+        if not isinstance(other, Combinable):
+            return NotImplemented
+        return And((*_operands(self, And), *_operands(other, And)))
+
+    def __or__(self, other: Combinable) -> Or:
+        if not isinstance(other, Combinable):
+            return NotImplemented
+        return Or((*_operands(self, Or), *_operands(other, Or)))
+
+    def __invert__(self) -> Not:
+        return Not(cast("Formula", self))
+
+    def __bool__(self) -> NoReturn:
+        """Refuse: `f and g` would silently be `g`."""
+        raise UsageError(f"a formula is neither true nor false by itself; combine formulas by &, | and ~: {self!r}")
+
+
+def _operands(formula: Combinable, kind: type[And] | type[Or]) -> tuple[Formula, ...]:
+    return formula.operands if isinstance(formula, kind) else (cast("Formula", formula),)
+
+
 @dataclass(frozen=True, slots=True)
-class Atom:
+class Atom(Combinable):
     """A predicate over terms, such as `(at ?v l1)`."""
 
     predicate: str
@@ -23,7 +53,7 @@ class Atom:
 
 
 @dataclass(frozen=True, slots=True)
-class Equals:
+class Equals(Combinable):
     """Two terms name the same object."""
 
     left: str
@@ -31,7 +61,7 @@ class Equals:
 
 
 @dataclass(frozen=True, slots=True)
-class OfType:
+class OfType(Combinable):
     """A term names an object of one of the types (HDDL's sort constraint)."""
 
     term: str
@@ -39,28 +69,28 @@ class OfType:
 
 
 @dataclass(frozen=True, slots=True)
-class Not:
+class Not(Combinable):
     """The operand does not hold."""
 
     operand: Formula
 
 
 @dataclass(frozen=True, slots=True)
-class And:
+class And(Combinable):
     """All operands hold; without operands it is true."""
 
     operands: tuple[Formula, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Or:
+class Or(Combinable):
     """One of the operands holds; without operands it is false."""
 
     operands: tuple[Formula, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Exists:
+class Exists(Combinable):
     """The body holds for some objects."""
 
     parameters: tuple[Parameter, ...]
@@ -68,7 +98,7 @@ class Exists:
 
 
 @dataclass(frozen=True, slots=True)
-class Forall:
+class Forall(Combinable):
     """The body holds for all objects."""
 
     parameters: tuple[Parameter, ...]

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from statehtn.model.decomposition_tree import DecompositionTree
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +56,13 @@ class Plan:
     steps: tuple[Step, ...] = ()
     roots: tuple[int | Decomposition, ...] = ()
     root_bindings: tuple[str, ...] | None = ()
+
+    @property
+    def decomposition(self) -> DecompositionTree:
+        """The decomposition as a tree to print, to show in a notebook and to draw."""
+        from statehtn.model.decomposition_tree import DecompositionTree  # which knows plans
+
+        return DecompositionTree(self)
 
     def decompositions(self) -> Iterator[Decomposition]:
         """Yield all compound nodes, parents first."""

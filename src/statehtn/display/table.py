@@ -1,0 +1,62 @@
+"""Tables as text and as HTML that needs no style sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+
+CELL = "padding: 0.1em 0.8em; border: 0"
+RULE = "border-top: 1px solid rgba(128, 128, 128, 0.6)"
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a table: its head, and whether it holds numbers, which stand to the right."""
+
+    head: str
+    is_number: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of text under heads; a last row of totals where there is one."""
+
+    columns: Sequence[Column]
+    rows: Sequence[Sequence[str]]
+    totals: Sequence[str] = ()
+
+    def to_text(self) -> str:
+        """Return the table in columns of characters, with two spaces between them."""
+        heads = [column.head for column in self.columns]
+        lines = [heads, *self.rows, *([self.totals] if self.totals else [])]
+        widths = [max(map(len, cells)) for cells in zip(*lines, strict=True)]
+        shown = [
+            "  ".join(
+                cell.rjust(width) if column.is_number else cell.ljust(width)
+                for cell, width, column in zip(line, widths, self.columns, strict=True)
+            ).rstrip()
+            for line in lines
+        ]
+        rule = "─" * (sum(widths) + 2 * (len(widths) - 1))
+        shown.insert(1, rule)
+        if self.totals:
+            shown.insert(-1, rule)
+        return "\n".join(shown)
+
+    def to_html(self) -> str:
+        """Return a `<table>` with its own styles, readable on light and on dark ground; all text is escaped."""
+        head = "".join(self._cell("th", column.head, column) for column in self.columns)
+        body = "".join(f"<tr>{self._row(row)}</tr>" for row in self.rows)
+        foot = f"<tr>{self._row(self.totals, f'; {RULE}; font-weight: bold')}</tr>" if self.totals else ""
+        return (
+            f'<table style="border-collapse: collapse; margin: 0.4em 0; color: inherit"><thead><tr>{head}</tr></thead>'
+            f"<tbody>{body}{foot}</tbody></table>"
+        )
+
+    def _row(self, row: Sequence[str], style: str = "") -> str:
+        return "".join(self._cell("td", cell, column, style) for cell, column in zip(row, self.columns, strict=True))
+
+    def _cell(self, tag: str, text: str, column: Column, style: str = "") -> str:
+        align = "right" if column.is_number else "left"
+        return f'<{tag} style="{CELL}; text-align: {align}{style}">{escape(text)}</{tag}>'
