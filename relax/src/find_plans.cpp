@@ -28,7 +28,7 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods),
+      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods, options.use_stubborn_sets),
       heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)) {}
 
 SearchResult FindPlans::run() {

@@ -89,6 +89,8 @@ class SearchSwitches:
     """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
     skip_dead_methods: bool = True
     """Leave out methods whose first task would come next and cannot be executed."""
+    stubborn_sets: bool = True
+    """Leave out actions that can wait: their order with the others makes no difference."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,6 +163,7 @@ def find_plans(
         options.inherit_h = switches.inherit_h
         options.ask_adaptively = switches.adaptive
         options.skip_dead_methods = switches.skip_dead_methods
+        options.use_stubborn_sets = switches.stubborn_sets
         if run.stage(options):
             break
     return run.outcome()
