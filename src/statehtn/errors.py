@@ -43,5 +43,9 @@ class UsageError(StateHtnError, ValueError):
     """An argument of the library or the command line is out of its range (exit code 2)."""
 
 
+class ClusterError(StateHtnError):
+    """The cluster that runs were sent to is not there, is lost, or cannot execute them (exit code 69)."""
+
+
 class InternalError(Exception):
     """The planner has caught itself in a mistake (exit code 70); not the user's fault, and worth a report."""

@@ -53,10 +53,13 @@ class Limits:
             raise LimitReached(Status.MEMORY_LIMIT)
 
 
-def resident_mb() -> float:
-    """Return the process's resident memory in MB (10^6 bytes); where the system does not tell, 0."""
+def resident_mb(process: int | None = None) -> float:
+    """Return the resident memory of this process, or of another, in MB (10^6 bytes).
+
+    It is 0 for a process that has ended, and where the system does not tell.
+    """
     try:
-        with open("/proc/self/statm", "rb") as file:
+        with open(f"/proc/{'self' if process is None else process}/statm", "rb") as file:
             return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
-    except OSError:
+    except (OSError, IndexError):
         return 0.0

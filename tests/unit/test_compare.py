@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import csv
 import json
+import platform
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+import statehtn
 from statehtn.cli import main
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.experiments import runner
@@ -101,6 +104,7 @@ def test_every_run_has_its_row(tree: Path, tmp_path: Path, capsys: Capture) -> N
     assert found["result"]["plan"][0]["action"] == "take-car"
     assert (found["run"]["search"], found["run"]["time_limit"], found["exit_code"]) == ("astar", 1.0, 0)
     assert found["seconds"] > 0
+    assert (found["machine"], found["version"]) == (platform.node(), statehtn.__version__)
 
     captured = capsys.readouterr()
     assert captured.err == ""
@@ -174,6 +178,9 @@ def test_other_limits_are_not_mixed(tree: Path, tmp_path: Path, capsys: Capture)
         (["--suite", "ipc", "--root", "/no/such/folder"], 30, "/no/such/folder"),
         (["--suite", "ipc", "--root", "EMPTY"], 30, "no HDDL problem"),
         (["--suite", "ipc", "--root", "TREE", "--domain", "Magic"], 30, "Magic"),
+        (["--suite", "ipc", "--root", "TREE", "--problem", "q*"], 30, "no problem called 'q*'"),
+        (["--suite", "TREE/none.toml"], 30, "none.toml"),
+        (["--suite", "paper", "--root", "TREE"], 30, "--root"),
         (["--suite", "ipc", "--root", "TREE", "--jobs", "0"], 2, "--jobs"),
         (["--suite", "ipc", "--root", "TREE", "--repeat", "-1"], 2, "--repeat"),
         (["--suite", "ipc", "--root", "TREE", "--time-limit", "0"], 2, "time limit"),
@@ -263,11 +270,29 @@ def run_of(tree: Path, problem: str, time_limit: float | None) -> Run:
     return Grid(time_limit=time_limit).runs([instance])[0]
 
 
+def python(folder: Path, script: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have a script run in place of every run."""
+    program = folder / "python"
+    program.write_text(f"#!{runner.sys.executable}\n{script}\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(runner.sys, "executable", str(program))
+
+
 def test_a_run_that_does_not_end_is_killed(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runner, "GRACE_SECONDS", -0.5)
     record = execute(run_of(tree, "pfile01", 0.8))
     assert (record.status, record.result) == ("killed", None)
+    assert record.message.endswith("s, far beyond the limit of 0.8 s")
     assert record.seconds < 5
+
+
+def test_a_run_that_eats_memory_is_killed(tree: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    python(tmp_path, "import time; eaten = b'x' * 300_000_000; time.sleep(60)", monkeypatch)
+    monkeypatch.setattr(runner, "GRACE_MEGABYTES", 20)
+    record = execute(replace(run_of(tree, "p1", 50), memory_limit=100))
+    assert (record.status, record.result) == ("killed", None)
+    assert "MB, far beyond the limit of 100 MB" in record.message
+    assert record.seconds < 20
 
 
 @pytest.mark.parametrize(
@@ -282,10 +307,7 @@ def test_a_run_that_does_not_end_is_killed(tree: Path, monkeypatch: pytest.Monke
 def test_crashes_are_recorded(
     tree: Path, tmp_path: Path, script: str, status: str, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    program = tmp_path / "python"
-    program.write_text(f"#!{runner.sys.executable}\n{script}\n")
-    program.chmod(0o755)
-    monkeypatch.setattr(runner.sys, "executable", str(program))
+    python(tmp_path, script, monkeypatch)
     record = execute(run_of(tree, "p1", 5))
     assert (record.status, record.message, record.result) == (status, message, None)
     assert record.row()["risk_cost"] == ""

@@ -10,7 +10,7 @@ from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.search import SEARCHES
 from statehtn.errors import UsageError
-from statehtn.experiments.suites import SUITES
+from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.planner import DEFAULT_WEIGHT, SOLVERS
 from statehtn.risk import Attitude
 
@@ -22,15 +22,22 @@ exit codes:
   2 usage         12 search exhausted     21 memory limit    31 unsupported feature
 """
 
-COMPARE_EPILOG = """statuses of a run, besides those of 'statehtn plan':
+COMPARE_EPILOG = """suites:
+  paper            what the paper reports: vehicles and satellites, by all solvers
+  satellite-large  satellites of the size at which the paper's planner had no memory left, by all solvers
+  ipc              every problem in a folder (--root), such as the competition's benchmarks
+  FILE.toml        one's own (docs/compare.md)
+The suite says with what its problems are run; settings given here count instead. What a solver does not know is left
+out: --solver state plan --heuristic lmcut tdg are three combinations.
+
+statuses of a run, besides those of 'statehtn plan':
   input-error, unsupported   its input is wrong, or asks for something that the planner does not do
   error                      it crashed, or its plan did not pass validation
-  killed                     it overran its time limit and did not end of itself
+  killed                     it overran a limit and did not end of itself, or killed the workers that it ran on
 
-exit codes: 0 every run is recorded, 2 usage, 30 no such folder or no problem, 74 cannot write, 130 interrupted
+exit codes: 0 every run is recorded, 2 usage, 30 wrong suite, folder or file, 69 no cluster, 74 cannot write,
+130 interrupted
 """
-COMPARE_TIME_LIMIT = 60.0
-COMPARE_MEMORY_LIMIT = 4000.0
 
 
 class _Parser(argparse.ArgumentParser):
@@ -146,30 +153,35 @@ def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
     def several(name: str, **options: Any) -> None:
         parser.add_argument(name, action="extend", nargs="+", **options)
 
-    parser.add_argument("--suite", choices=list(SUITES), required=True)
-    parser.add_argument("--root", metavar="DIR", help="folder of the benchmarks (suite ipc)")
+    parser.add_argument("--suite", required=True, metavar="NAME|FILE.toml", help=f"{', '.join(SUITES)}, or a file")
+    parser.add_argument("--root", metavar="DIR", help="folder of the suite's problems; needed for ipc")
     several("--domain", metavar="GLOB", help="only domains of this name, such as '*Satellite*'")
+    several("--problem", metavar="GLOB", help="only problems of this name")
     several("--attitude", choices=[str(attitude) for attitude in Attitude], help="default: the suite's own")
     several("--alpha", type=float, metavar="A", help="for the averse and the seeking")
-    several("--solver", choices=list(SOLVERS), help="default: state")
-    several("--heuristic", choices=list(HEURISTICS), help="default: lmcut, and ff for greedy search")
+    several("--solver", choices=list(SOLVERS), help="default: the suite's own, else state")
+    several("--heuristic", choices=list(HEURISTICS), help="default: that of solver and search in 'statehtn plan'")
     several("--search", choices=list(SEARCHES), help="default: astar")
-    parser.add_argument("--repeat", type=_count, default=1, metavar="N", help="do everything so many times")
+    parser.add_argument("--repeat", type=_count, metavar="N", help="do everything so many times, one after the other")
     parser.add_argument(
         "--time-limit",
         type=float,
-        default=COMPARE_TIME_LIMIT,
         metavar="S",
-        help=f"seconds for a run, reading included; default: {COMPARE_TIME_LIMIT:g}",
+        help=f"seconds for a run, reading included; default: {DEFAULTS.time_limit:g}",
     )
     parser.add_argument(
         "--memory-limit",
         type=float,
-        default=COMPARE_MEMORY_LIMIT,
         metavar="MB",
-        help=f"of a run's process, in 10^6 bytes; default: {COMPARE_MEMORY_LIMIT:g}",
+        help=f"of a run's process, in 10^6 bytes; default: {DEFAULTS.memory_limit:g}",
     )
-    parser.add_argument("--jobs", type=_count, default=1, metavar="N", help="runs at the same time; default: 1")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--jobs", type=_count, default=1, metavar="N", help="runs at the same time; default: 1")
+    where.add_argument(
+        "--dask",
+        metavar="ADDRESS",
+        help="run on the workers of the Dask cluster whose scheduler is there, such as tcp://127.0.0.1:8786",
+    )
     parser.add_argument(
         "--output",
         metavar="FILE.csv",

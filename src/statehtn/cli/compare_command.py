@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -18,11 +19,12 @@ from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import OutputError, emit
 from statehtn.cli.tables import readable_summaries
 from statehtn.errors import InputError
+from statehtn.experiments.cluster import execute_on_cluster
 from statehtn.experiments.record_files import RecordFiles, csv_line
 from statehtn.experiments.records import COLUMNS, Record, Row
 from statehtn.experiments.run import Grid, Run, agents_of
 from statehtn.experiments.runner import execute_all
-from statehtn.experiments.suites import SUITES
+from statehtn.experiments.suites import runs_of
 from statehtn.experiments.summary import summarise, summary_of
 
 Show = Callable[[Record], None]
@@ -51,25 +53,27 @@ def run_compare(options: argparse.Namespace) -> ExitCode:
 
 def _runs(options: argparse.Namespace) -> list[Run]:
     """Return the runs that the options ask for."""
-    grid = Grid(
-        agents=agents_of(_unique(options.attitude, ()), _unique(options.alpha, ())),
-        solvers=_unique(options.solver, Grid().solvers),
-        heuristics=_unique(options.heuristic, Grid().heuristics),
-        searches=_unique(options.search, Grid().searches),
+    asked = Grid(
+        agents=agents_of(_unique(options.attitude), _unique(options.alpha)),
+        solvers=_unique(options.solver),
+        heuristics=_unique(options.heuristic),
+        searches=_unique(options.search),
         repeat=options.repeat,
         time_limit=options.time_limit,
         memory_limit=options.memory_limit,
     )
-    runs = SUITES[options.suite](grid, None if options.root is None else Path(options.root))
-    if options.domain is not None:
-        runs = [run for run in runs if any(fnmatchcase(run.instance.domain, glob) for glob in options.domain)]
+    runs = runs_of(options.suite, asked, None if options.root is None else Path(options.root))
+    for kind in ("domain", "problem"):
+        globs = getattr(options, kind)
+        if globs is not None:
+            runs = [run for run in runs if any(fnmatchcase(getattr(run.instance, kind), glob) for glob in globs)]
         if not runs:
-            raise InputError(f"the suite has no domain called {' or '.join(map(repr, options.domain))}")
+            raise InputError(f"the suite has no {kind} called {' or '.join(map(repr, globs))}")
     return runs
 
 
-def _unique(values: Sequence[Any] | None, default: Sequence[Any]) -> list[Any]:
-    return list(dict.fromkeys(values or default))
+def _unique(values: Sequence[Any] | None) -> tuple[Any, ...]:
+    return tuple(dict.fromkeys(values or ()))
 
 
 def _to_files(runs: list[Run], options: argparse.Namespace) -> list[Row]:
@@ -78,7 +82,7 @@ def _to_files(runs: list[Run], options: argparse.Namespace) -> list[Row]:
         missing = files.missing(runs)
         visible = sys.stderr.isatty() and not options.quiet
         progress = _bar(len(runs), len(runs) - len(missing)) if visible else nullcontext(_show_nothing)
-        _execute(missing, options.jobs, files.append, progress)
+        _execute(missing, options, files.append, progress)
         return files.rows(runs)
 
 
@@ -92,15 +96,28 @@ def _to_stdout(runs: list[Run], options: argparse.Namespace) -> list[Row]:
 
     emit(csv_line(COLUMNS))
     visible = sys.stderr.isatty() and not sys.stdout.isatty() and not options.quiet  # rows and bar do not mix
-    _execute(runs, options.jobs, keep, _bar(len(runs), 0) if visible else nullcontext(_show_nothing))
+    _execute(runs, options, keep, _bar(len(runs), 0) if visible else nullcontext(_show_nothing))
     return rows
 
 
-def _execute(runs: list[Run], jobs: int, keep: Show, progress: AbstractContextManager[Show]) -> None:
-    with progress as show, closing(execute_all(runs, jobs)) as records:
+def _execute(runs: list[Run], options: argparse.Namespace, keep: Show, progress: AbstractContextManager[Show]) -> None:
+    if not runs:
+        return
+    execution = execute_all(runs, options.jobs) if options.dask is None else execute_on_cluster(runs, options.dask)
+    with _no_logs(), progress as show, closing(execution) as records:
         for record in records:
             keep(record)
             show(record)
+
+
+@contextmanager
+def _no_logs() -> Iterator[None]:
+    """Keep what Dask logs off the terminal; what matters of it becomes an error or a record."""
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logging.disable(logging.NOTSET)
 
 
 def _show_nothing(_record: Record) -> None:

@@ -18,7 +18,7 @@ from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import OutputError
 from statehtn.cli.plan_command import run_plan
 from statehtn.cli.validate_command import run_validate
-from statehtn.errors import StateHtnError, UnsupportedError, UsageError
+from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, UsageError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -53,6 +53,8 @@ def _explain(error: BaseException) -> ExitCode:
             return _complain(ExitCode.USAGE, f"error: {error}")
         case UnsupportedError():
             return _complain(ExitCode.UNSUPPORTED, f"error: {error}")
+        case ClusterError():
+            return _complain(ExitCode.CLUSTER_ERROR, f"error: {error}")
         case StateHtnError():
             return _complain(ExitCode.INPUT_ERROR, f"error: {error}")
         case OutputError():

@@ -27,7 +27,7 @@ def find_instances(root: Path) -> list[Instance]:
     """
     instances = []
     for problem in root.rglob(f"*{SUFFIX}"):
-        if problem.is_file() and not _is_domain(problem):
+        if problem.is_file() and not is_domain(problem):
             folder, domain = next(_domains(problem, root), (problem.parent, problem.with_name(f"domain{SUFFIX}")))
             name = folder.relative_to(root).as_posix()
             instances.append(
@@ -59,10 +59,10 @@ def _domains(problem: Path, root: Path) -> Iterator[tuple[Path, Path]]:
 def _is_shared_domain(file: Path) -> bool:
     """Tell whether a file is a domain and not that of a single problem beside it."""
     owner = file.with_name(file.name.replace("-domain", ""))
-    return _is_domain(file) and (owner == file or not owner.exists())
+    return is_domain(file) and (owner == file or not owner.exists())
 
 
-def _is_domain(file: Path) -> bool:
+def is_domain(file: Path) -> bool:
     """Tell domains from problems: by their name, else by what they define; a file that defines nothing is a problem."""
     if file.stem == "domain" or file.stem.endswith("-domain"):
         return True

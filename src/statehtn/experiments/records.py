@@ -27,8 +27,10 @@ class Record:
         status: that of the result; without one `input-error`, `unsupported`, `error` or `killed`.
         exit_code: of its process; negative: the signal that ended it.
         seconds: from the start of its process to its end.
-        message: what it wrote to standard error.
+        message: what it wrote to standard error, or why it was killed.
         result: the object of `statehtn plan --json`, if it has printed one.
+        machine: the name of the computer that it ran on.
+        version: that of statehtn.
     """
 
     run: Run
@@ -37,6 +39,8 @@ class Record:
     seconds: float
     message: str
     result: dict[str, Any] | None
+    machine: str = ""
+    version: str = ""
 
     def row(self) -> Row:
         """Return the row of this run in the table of results."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import product
 
 from statehtn.errors import UsageError
+from statehtn.experiments.combinations import exists
 from statehtn.limits import Limits
 from statehtn.planner import Query
 
@@ -69,36 +70,49 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """What every instance is run with: all combinations, `repeat` times.
+    """What every instance is run with: all combinations that exist, `repeat` times. What is not said is None or empty.
 
     Args:
-        agents: none where the suite is to choose.
-        heuristics: None stands for the search's own.
-        repeat: at least 1.
+        agents: neutral alone where nobody is named.
+        solvers: `state` where none is named.
+        heuristics: the own one of solver and search where none is named.
+        searches: `astar` where none is named.
+        repeat: at least 1; once where it is not said.
         time_limit: seconds for each run, reading included.
         memory_limit: resident memory of each run in MB (10^6 bytes).
     """
 
     agents: Sequence[Agent] = ()
-    solvers: Sequence[str] = ("state",)
-    heuristics: Sequence[str | None] = (None,)
-    searches: Sequence[str] = ("astar",)
-    repeat: int = 1
+    solvers: Sequence[str] = ()
+    heuristics: Sequence[str] = ()
+    searches: Sequence[str] = ()
+    repeat: int | None = None
     time_limit: float | None = None
     memory_limit: float | None = None
 
-    def runs(self, instances: Iterable[Instance], agents: Sequence[Agent] = NEUTRAL) -> list[Run]:
-        """Return the runs on these instances, the repetitions apart; `agents` are those of the suite.
+    def or_else(self, other: Grid) -> Grid:
+        """Return this grid, with what it does not say from the other."""
+        values = [(getattr(self, field.name), getattr(other, field.name)) for field in fields(self)]
+        return Grid(*(theirs if ours is None or ours == () else ours for ours, theirs in values))
+
+    def combinations(self) -> list[tuple[str, str | None, str]]:
+        """Return every solver with every heuristic and search, those included that do not exist."""
+        return list(product(self.solvers or ("state",), self.heuristics or (None,), self.searches or ("astar",)))
+
+    def runs(self, instances: Iterable[Instance]) -> list[Run]:
+        """Return the runs on these instances: all of them once, then all of them again; none twice.
 
         Raises:
-            UsageError: a combination or a limit makes no sense.
+            UsageError: an agent, a name or a limit makes no sense.
         """
         Limits.starting_now(self.time_limit, self.memory_limit)
-        combinations = list(product(self.agents or agents, self.solvers, self.heuristics, self.searches))
         queries = [
-            (agent, Query.of(*agent, solver, heuristic, search)) for agent, solver, heuristic, search in combinations
+            (agent, Query.of(*agent, solver, heuristic, search))
+            for agent in self.agents or NEUTRAL
+            for solver, heuristic, search in self.combinations()
+            if exists(solver, heuristic, search)
         ]
-        return [
+        runs = [
             Run(
                 instance,
                 *agent,
@@ -109,9 +123,10 @@ class Grid:
                 self.time_limit,
                 self.memory_limit,
             )
-            for repeat, instance in product(range(1, self.repeat + 1), instances)
+            for repeat, instance in product(range(1, (self.repeat or 1) + 1), instances)
             for agent, query in queries
         ]
+        return list(dict.fromkeys(runs))
 
 
 def agents_of(attitudes: Sequence[str], alphas: Sequence[float]) -> tuple[Agent, ...]:
@@ -122,6 +137,5 @@ def agents_of(attitudes: Sequence[str], alphas: Sequence[float]) -> tuple[Agent,
     """
     curved = [attitude for attitude in attitudes if attitude != "neutral"]
     if bool(curved) != bool(alphas):
-        problem = f"an agent that is {curved[0]} needs an alpha" if curved else "a neutral agent has no alpha"
-        raise UsageError(f"{problem} (--attitude, --alpha)")
+        raise UsageError(f"an agent that is {curved[0]} needs an alpha" if curved else "a neutral agent has no alpha")
     return tuple((attitude, alpha) for attitude in attitudes for alpha in ([None] if attitude == "neutral" else alphas))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -14,13 +15,22 @@ from concurrent.futures import CancelledError, ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from typing import Any
 
+import statehtn
 from statehtn.experiments.records import Record
 from statehtn.experiments.run import Run
+from statehtn.limits import resident_mb
 from statehtn.model.status import Status
 
 GRACE_SECONDS = 10.0
+GRACE_MEGABYTES = 200.0
 GRACE_SHARE = 0.1
-"""A run is killed when it has overrun its time limit by so many seconds and this share of the limit."""
+"""A run is killed when it has overrun a limit by so many seconds, or megabytes, and this share of the limit.
+
+The planner keeps its limits itself, and then tells what it knows by then; this is for the day when it does not. Memory
+is watched where the system tells it (Linux). A limit on the address space would be none on memory: much is reserved
+that is never used.
+"""
+WATCH_SECONDS = 0.2
 STATUSES_WITHOUT_RESULT = {
     21: "memory-limit",
     30: "input-error",
@@ -67,6 +77,11 @@ class Children:
         with self._lock:
             self._running.discard(process)
 
+    @property
+    def stopped(self) -> bool:
+        """Whether `stop` has been called."""
+        return self._stopped
+
     def stop(self) -> None:
         """Kill all that are running."""
         with self._lock:
@@ -76,9 +91,13 @@ class Children:
 
 
 def execute(run: Run, children: Children | None = None) -> Record:
-    """Execute a run in a process of its own and return what has come of it; `children` can end it early."""
+    """Execute a run in a process of its own and return what has come of it; `children` can end it early.
+
+    Raises:
+        CancelledError: they have.
+        OSError: no process can be started.
+    """
     children = Children() if children is None else children
-    patience = None if run.time_limit is None else run.time_limit * (1 + GRACE_SHARE) + GRACE_SECONDS
     start = time.perf_counter()
     reading, writing = os.pipe()
     try:
@@ -86,25 +105,47 @@ def execute(run: Run, children: Children | None = None) -> Record:
             process = children.start(run.arguments(), reading)
         finally:
             os.close(reading)
-        killed = False
-        try:
-            output, errors = process.communicate(timeout=patience)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            output, errors = process.communicate()
-            killed = True
+        output, errors, overrun = _watch(process, run)
         children.ended(process)
     finally:
         os.close(writing)
-    result = None if killed else _result(output)
+    result = None if overrun else _result(output)
     return Record(
         run=run,
-        status="killed" if killed else _status(result, process.returncode),
+        status="killed" if overrun else _status(result, process.returncode),
         exit_code=process.returncode,
         seconds=time.perf_counter() - start,
-        message=_message(errors, process.returncode),
+        message=overrun or _message(errors, process.returncode),
         result=result,
+        machine=platform.node(),
+        version=statehtn.__version__,
     )
+
+
+def _watch(process: subprocess.Popen[str], run: Run) -> tuple[str, str, str]:
+    """Wait for the end of a run, or kill it; return what it has written to both outputs, and why it was killed."""
+    start = time.monotonic()
+    while True:
+        try:
+            output, errors = process.communicate(timeout=WATCH_SECONDS)
+        except subprocess.TimeoutExpired:
+            overrun = _overrun(run, time.monotonic() - start, resident_mb(process.pid))
+            if overrun:
+                process.kill()
+                return *process.communicate(), overrun
+        else:
+            return output, errors, ""
+
+
+def _overrun(run: Run, seconds: float, megabytes: float) -> str:
+    """Say which limit a run has overrun by more than the grace; empty if none."""
+    for used, limit, grace, unit in (
+        (seconds, run.time_limit, GRACE_SECONDS, "s"),
+        (megabytes, run.memory_limit, GRACE_MEGABYTES, "MB"),
+    ):
+        if limit is not None and used > limit * (1 + GRACE_SHARE) + grace:
+            return f"killed at {used:.4g} {unit}, far beyond the limit of {limit:g} {unit}"
+    return ""
 
 
 def _result(output: str) -> dict[str, Any] | None:

@@ -1,0 +1,164 @@
+"""Read a suite of one's own from a TOML file: which problems, and what each is run with."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.search import SEARCHES
+from statehtn.errors import InputError, UsageError
+from statehtn.experiments.instances import is_domain
+from statehtn.experiments.run import Grid, Instance, agents_of
+from statehtn.planner import SOLVERS
+from statehtn.risk import Attitude
+
+Part = tuple[Grid, list[Instance]]
+"""Problems, and what they are run with."""
+AGENT_KEYS = ("attitudes", "alphas")
+GRID_KEYS = (*AGENT_KEYS, "solvers", "heuristics", "searches", "repeat", "time-limit", "memory-limit")
+"""Keys of the whole file, and of each `[[runs]]`, whose values count there instead."""
+RUNS_KEYS = ("domain", "problems", "name", *GRID_KEYS)
+
+
+def read_suite(file: Path) -> list[Part]:
+    """Read a suite from a TOML file (`docs/compare.md` has the keys); paths are relative to the file.
+
+    Raises:
+        InputError: the file cannot be read, is no TOML, or says something that makes no sense.
+    """
+    try:
+        with open(file, "rb") as content:
+            tables = tomllib.load(content)
+    except OSError as error:
+        raise InputError(f"cannot read '{file}': {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{file}: this is no TOML: byte {error.start} is not UTF-8") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{file}: this is no TOML: {error}") from None
+    whole = _Table(str(file), tables)
+    whole.check_keys((*GRID_KEYS, "runs"))
+    runs = tables.get("runs")
+    if not isinstance(runs, list) or not runs or not all(isinstance(table, dict) for table in runs):
+        raise InputError(f"{file}: expected at least one table [[runs]] with 'domain' and 'problems'")
+    common = {key: value for key, value in tables.items() if key != "runs"}
+    return [_part(file, common, table, number) for number, table in enumerate(runs, 1)]
+
+
+def _part(file: Path, common: Mapping[str, Any], own: Mapping[str, Any], number: int) -> Part:
+    """Read a table `[[runs]]`; `common` is what the whole file says."""
+    _Table(f"{file}: [[runs]] {number}", own).check_keys(RUNS_KEYS)
+    if any(key in own for key in AGENT_KEYS):  # attitudes and alphas belong together
+        common = {key: value for key, value in common.items() if key not in AGENT_KEYS}
+    table = _Table(f"{file}: [[runs]] {number}", {**common, **own})
+    attitudes = table.names("attitudes", [str(attitude) for attitude in Attitude])
+    try:
+        agents = agents_of(attitudes, table.alphas())
+    except UsageError as error:
+        raise InputError(f"{table.place}: {error} ('attitudes', 'alphas')") from None
+    grid = Grid(
+        agents=agents,
+        solvers=table.names("solvers", SOLVERS),
+        heuristics=table.names("heuristics", HEURISTICS),
+        searches=table.names("searches", SEARCHES),
+        repeat=table.repeat(),
+        time_limit=table.positive("time-limit"),
+        memory_limit=table.positive("memory-limit"),
+    )
+    return grid, _instances(file.parent, table)
+
+
+def _instances(folder: Path, table: _Table) -> list[Instance]:
+    """Return the problems of a table, sorted by name, each once; a domain that a pattern matches is no problem."""
+    domain = folder / table.text("domain")
+    if not domain.is_file():
+        table.complain("domain", "the path of a file, relative to this one", str(table.values["domain"]))
+    name = table.text("name", domain.resolve().parent.name)
+    problems: dict[Path, None] = {}
+    for pattern in table.texts("problems"):
+        if (folder / pattern).is_file():
+            problems[folder / pattern] = None
+            continue
+        try:
+            found = [path for path in sorted(folder.glob(pattern)) if path.is_file() and not is_domain(path)]
+        except (NotImplementedError, ValueError):  # an absolute one, or none that can be
+            found = []
+        if not found:
+            table.complain("problems", "paths or patterns of problems, relative to this file", pattern)
+        problems.update(dict.fromkeys(found))
+    return [Instance(name, _problem_name(problem, domain), str(domain), str(problem)) for problem in problems]
+
+
+def _problem_name(problem: Path, domain: Path) -> str:
+    """Return the path from the domain's folder, without ending; the file's name alone where it is not below."""
+    problem, folder = problem.resolve(), domain.resolve().parent
+    name = problem.relative_to(folder) if problem.is_relative_to(folder) else Path(problem.name)
+    return name.with_suffix("").as_posix()
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """A table of the file, and where it is; its readers raise an `InputError` for what makes no sense."""
+
+    place: str
+    values: Mapping[str, Any]
+
+    def complain(self, key: str, expected: str, found: object) -> NoReturn:
+        raise InputError(f"{self.place}: '{key}': expected {expected}, found {found!r}")
+
+    def check_keys(self, known: Iterable[str]) -> None:
+        for key in self.values:
+            if key not in known:
+                raise InputError(f"{self.place}: unknown key '{key}'; there are {', '.join(known)}")
+
+    def text(self, key: str, default: str | None = None) -> str:
+        value = self.values.get(key, default)
+        if value is None:
+            raise InputError(f"{self.place}: '{key}' is missing")
+        if not isinstance(value, str) or not value:
+            self.complain(key, "text", value)
+        return value
+
+    def texts(self, key: str) -> list[str]:
+        value = self.values.get(key)
+        if value is None:
+            raise InputError(f"{self.place}: '{key}' is missing")
+        listed = [value] if isinstance(value, str) else value
+        if not isinstance(listed, list) or not listed or not all(isinstance(item, str) and item for item in listed):
+            self.complain(key, "text, or a list of texts", value)
+        return listed
+
+    def names(self, key: str, known: Iterable[str]) -> list[str]:
+        names = self.texts(key) if key in self.values else []
+        for name in names:
+            if name not in known:
+                self.complain(key, f"some of {', '.join(known)}", name)
+        return list(dict.fromkeys(names))
+
+    def alphas(self) -> list[float]:
+        value = self.values.get("alphas", [])
+        listed = value if isinstance(value, list) else [value]
+        for alpha in listed:
+            if not _is_positive(alpha):
+                self.complain("alphas", "positive numbers", alpha)
+        return [float(alpha) for alpha in dict.fromkeys(listed)]
+
+    def positive(self, key: str) -> float | None:
+        value = self.values.get(key)
+        if value is not None and not _is_positive(value):
+            self.complain(key, "a positive number", value)
+        return None if value is None else float(value)
+
+    def repeat(self) -> int | None:
+        value = self.values.get("repeat")
+        if value is not None and (not isinstance(value, int) or isinstance(value, bool) or value < 1):
+            self.complain("repeat", "a whole number of at least 1", value)
+        return value
+
+
+def _is_positive(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and value > 0
