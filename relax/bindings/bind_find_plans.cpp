@@ -86,7 +86,8 @@ void bind_find_plans(nb::module_& module) {
         .value("AStar", relax::SearchAlgorithm::AStar)
         .value("Weighted", relax::SearchAlgorithm::Weighted)
         .value("Greedy", relax::SearchAlgorithm::Greedy)
-        .value("PlanBased", relax::SearchAlgorithm::PlanBased);
+        .value("PlanBased", relax::SearchAlgorithm::PlanBased)
+        .value("Portfolio", relax::SearchAlgorithm::Portfolio);
     nb::enum_<relax::SearchStatus>(module, "SearchStatus")
         .value("Optimal", relax::SearchStatus::Optimal)
         .value("Solved", relax::SearchStatus::Solved)

@@ -195,7 +195,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--resume", action="store_true", help="keep what the output has already")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--most-seconds", type=float, default=math.inf)
-    parser.add_argument("--heuristic", default="lmcut")
+    parser.add_argument("--heuristic", default="auto")
     parser.add_argument("--without", nargs="*", default=[], help="names of SearchSwitches to turn off")
     parser.add_argument("--child", nargs=2, type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args()

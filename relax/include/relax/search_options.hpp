@@ -9,8 +9,9 @@
 
 namespace relax {
 
-// PlanBased searches task networks alone, the others states and task networks.
-enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased };
+// PlanBased searches task networks alone, the others states and task networks. Portfolio is A* with several heuristics
+// in turn.
+enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased, Portfolio };
 
 struct SearchOptions {
     HeuristicKind heuristic = HeuristicKind::LmCut;

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
 from statehtn.core.pricing import Prices, price
 from statehtn.core.trace import read_trace
 from statehtn.errors import UnsupportedError
@@ -122,7 +122,7 @@ def find_plans(
     grounding: Grounding,
     utility: Utility,
     *,
-    heuristic: str = "lmcut",
+    heuristic: str = PORTFOLIO,
     search: str = "astar",
     weight: float = 1.0,
     limits: Limits = Limits(),
@@ -134,7 +134,7 @@ def find_plans(
     Args:
         grounding: the ground problem and its cost laws.
         utility: the agent's; it prices the actions.
-        heuristic: a name in `HEURISTICS`.
+        heuristic: a name in `HEURISTICS`, or `PORTFOLIO` for A* with several of them in turn.
         search: a name in `SEARCHES`; with an admissible heuristic `astar` and `anytime` promise the optimum, `weighted`
             a plan of at most `weight` times its risk cost.
         weight: of h in the weighted search, at least 1.
@@ -153,7 +153,11 @@ def find_plans(
             continue
         options = _relax.SearchOptions()
         options.algorithm = stage.algorithm
-        options.heuristic = HEURISTICS[stage.heuristic or heuristic].kind
+        name = stage.heuristic or heuristic
+        if name == PORTFOLIO and stage.algorithm is _relax.SearchAlgorithm.AStar:
+            options.algorithm = _relax.SearchAlgorithm.Portfolio
+        else:
+            options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name].kind
         options.weight = stage.weight or weight
         options.most_evaluations = stage.most_evaluations
         options.explores = stage.explores
