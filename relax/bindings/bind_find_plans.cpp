@@ -86,7 +86,8 @@ void bind_find_plans(nb::module_& module) {
         .value("AStar", relax::SearchAlgorithm::AStar)
         .value("Weighted", relax::SearchAlgorithm::Weighted)
         .value("Greedy", relax::SearchAlgorithm::Greedy)
-        .value("PlanBased", relax::SearchAlgorithm::PlanBased);
+        .value("PlanBased", relax::SearchAlgorithm::PlanBased)
+        .value("Portfolio", relax::SearchAlgorithm::Portfolio);
     nb::enum_<relax::SearchStatus>(module, "SearchStatus")
         .value("Optimal", relax::SearchStatus::Optimal)
         .value("Solved", relax::SearchStatus::Solved)
@@ -105,6 +106,7 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("inherit_h", &relax::SearchOptions::inherit_h)
         .def_rw("ask_adaptively", &relax::SearchOptions::ask_adaptively)
         .def_rw("skip_dead_methods", &relax::SearchOptions::skip_dead_methods)
+        .def_rw("use_stubborn_sets", &relax::SearchOptions::use_stubborn_sets)
         .def_rw("upper_bound", &relax::SearchOptions::upper_bound)
         .def_rw("branches_over_all", &relax::SearchOptions::branches_over_all)
         .def_rw("checks_preconditions", &relax::SearchOptions::checks_preconditions)

@@ -8,19 +8,6 @@
 
 namespace relax {
 
-namespace {
-
-template <typename Visit>
-void for_each_bit(std::span<const std::uint64_t> row, Visit visit) {
-    for (std::size_t word = 0; word < row.size(); ++word) {
-        for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1) {
-            visit(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
-        }
-    }
-}
-
-}  // namespace
-
 std::span<const std::uint32_t> CanonicalOrder::of(const OrderedTasks& network) {
     colour(network);
     refine(network);

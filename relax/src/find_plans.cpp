@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -19,6 +20,8 @@ constexpr Cost kDeadEnd = kNoDecomposition;
 constexpr std::uint32_t kAnswerWindow = 32;
 constexpr std::uint32_t kLongestPause = 4096;
 
+constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
+
 }  // namespace
 
 FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
@@ -28,35 +31,61 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods),
+      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods, options.use_stubborn_sets),
       heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)) {}
 
 SearchResult FindPlans::run() {
+    advance(std::numeric_limits<std::uint64_t>::max());
+    return result();
+}
+
+bool FindPlans::advance(std::uint64_t work) {
+    if (!problem_.solvable) {
+        is_done_ = true;
+    }
+    if (is_done_) {
+        return true;
+    }
+    try {
+        if (nodes_.size() == 0) {
+            start();
+        }
+        stop_ = search(work);
+    } catch (const std::bad_alloc&) {
+        stop_ = StopReason::MemoryLimit;
+        is_torn_ = true;
+    }
+    is_done_ = is_done_ || stop_.has_value();
+    return is_done_;
+}
+
+std::uint64_t FindPlans::work() const { return statistics_.generated * kWorkOfANode + heuristic_->work(); }
+
+// No plan that is wanted costs less than this: each that was not found goes through an open node. In the middle of an
+// expansion the open list is not complete.
+Cost FindPlans::proven() const {
+    const Cost wanted = options_.upper_bound.value_or(kDeadEnd);
+    const Cost by_nodes = is_torn_ ? 0 : std::min(open_bound(), wanted);
+    return std::max(by_nodes, std::min(statistics_.lower_bound.value_or(0), wanted));
+}
+
+SearchResult FindPlans::result() {
     SearchResult result;
     if (!problem_.solvable) {
         return result;
     }
-    std::optional<StopReason> stop;
-    Cost proven = 0;
-    try {
-        stop = search();
-        // Every plan that is wanted and was not found goes through an open node.
-        proven = std::min(open_bound(), options_.upper_bound.value_or(kDeadEnd));
-    } catch (const std::bad_alloc&) {
-        stop = StopReason::MemoryLimit;  // in the middle of an expansion: the open list is not complete
-    }
-    proven = std::max(proven, statistics_.lower_bound.value_or(0));
-    result.is_stopped = stop.has_value();
+    const Cost bound = proven();
+    result.is_stopped = stop_.has_value();
     if (goal_) {
         trace_plan(problem_, costs_, progression_, nodes_, *goal_, result);
     }
     if (result.cost) {
         statistics_.best = result.cost;
-        statistics_.lower_bound = std::min(proven, *result.cost);
-        result.status = proven >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-    } else if (stop) {
-        statistics_.lower_bound = proven;
-        result.status = status_of(*stop);
+        statistics_.lower_bound = std::min(bound, *result.cost);
+        result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
+    } else if (!is_done_ || stop_) {
+        statistics_.lower_bound = bound;
+        result.status = stop_ ? status_of(*stop_) : SearchStatus::GaveUp;
     } else {
         statistics_.lower_bound.reset();
         result.status = SearchStatus::Unsolvable;
@@ -65,25 +94,29 @@ SearchResult FindPlans::run() {
     return result;
 }
 
-// Search until the best plan is as good as the algorithm promises, or nothing is open. Says why it stopped before that.
-std::optional<StopReason> FindPlans::search() {
+void FindPlans::start() {
     const NodeId root = nodes_.add(progression_.initial_state(), progression_.initial_network());
     if (!is_admissible(options_.heuristic)) {
         guides_.push_back(0);
     }
     push(root);
-    while (!open_.is_empty()) {
+}
+
+// Search until the best plan is as good as the algorithm promises, or nothing is open, or the work is done. Says why it
+// was stopped before that.
+std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
+    while (!open_.is_empty() && open_.top().priority < enough()) {
+        if (work() >= most_work) {
+            return std::nullopt;
+        }
         if (const auto stop = limits_.check()) {
             return stop;
-        }
-        if (goal_ && open_.top().priority >= *statistics_.best) {
-            return std::nullopt;
         }
         const OpenList::Entry entry = open_.pop();
         if (is_stale(entry)) {
             continue;
         }
-        if (options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic)) {
+        if (is_exact()) {
             statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
         }
         if (!evaluate(entry.node)) {
@@ -95,7 +128,14 @@ std::optional<StopReason> FindPlans::search() {
         }
         expand(entry.node);
     }
+    is_done_ = true;
     return std::nullopt;
+}
+
+// The priority from which nothing that is open is worth a look.
+Cost FindPlans::enough() const {
+    const Cost best = goal_ ? *statistics_.best : kDeadEnd;
+    return is_exact() ? std::min(best, options_.upper_bound.value_or(kDeadEnd)) : best;
 }
 
 // The node has been expanded, or priced anew, since the entry was made.

@@ -31,6 +31,7 @@ public:
 
     PricedHMax(const RelaxedModel& model, Limits& /*limits*/) : model_(model), hmax_(model) {}
     std::optional<Cost> run(const RelaxedTask& task) { return hmax_.run(task, model_.owner_cost); }
+    std::uint64_t work() const { return hmax_.work(); }
 
 private:
     const RelaxedModel& model_;
@@ -50,6 +51,8 @@ public:
         const auto slack = lm_cut_.evaluate(node);
         return slack && node.tdg_bound < kNoDecomposition ? std::optional(node.tdg_bound + *slack) : std::nullopt;
     }
+
+    std::uint64_t work() const override { return lm_cut_.work(); }
 
 private:
     static std::vector<Cost> slacks(const GroundProblem& problem, const std::vector<Cost>& bounds) {

@@ -11,6 +11,7 @@ HMax::HMax(const RelaxedModel& model)
 std::optional<Cost> HMax::run(const RelaxedTask& task, std::span<const Cost> costs) {
     ++epoch_;
     queue_.clear();
+    looks_ += task.operators().size();
     for (const OperatorId op : task.operators()) {
         operators_[op] = {0, 0, static_cast<std::uint32_t>(model_.preconditions[op].size()), epoch_};
     }
@@ -22,7 +23,9 @@ std::optional<Cost> HMax::run(const RelaxedTask& task, std::span<const Cost> cos
         if (facts_[fact].cost != cost_of_it) {
             continue;
         }
-        for (const OperatorId op : model_.precondition_of[fact]) {
+        const auto readers = model_.precondition_of[fact];
+        looks_ += readers.size();
+        for (const OperatorId op : readers) {
             OperatorState& state = operators_[op];
             // Facts leave the queue in order of cost, so the last precondition to be reached is the dearest.
             if (state.epoch == epoch_ && --state.missing == 0) {
@@ -52,7 +55,9 @@ Cost HMax::lower(std::span<const OperatorId> operators, std::span<const Cost> co
         if (facts_[fact].cost != cost_of_it) {
             continue;
         }
-        for (const OperatorId op : model_.precondition_of[fact]) {
+        const auto readers = model_.precondition_of[fact];
+        looks_ += readers.size();
+        for (const OperatorId op : readers) {
             if (!is_reached(op) || operators_[op].supporter != fact) {
                 continue;
             }

@@ -51,7 +51,9 @@ void LmCut::mark_goal_zone(RelaxedFact goal) {
     while (!pending_.empty()) {
         const RelaxedFact fact = pending_.back();
         pending_.pop_back();
-        for (const OperatorId op : model_.achievers[fact]) {
+        const auto achievers = model_.achievers[fact];
+        looks_ += achievers.size();
+        for (const OperatorId op : achievers) {
             if (costs_[model_.owner[op]] == 0 && hmax_.is_reached(op)) {
                 put_into_goal_zone(hmax_.supporter(op));
             }
@@ -75,7 +77,9 @@ void LmCut::find_cut(const RelaxedTask& task) {
     while (!pending_.empty()) {
         const RelaxedFact fact = pending_.back();
         pending_.pop_back();
-        for (const OperatorId op : model_.precondition_of[fact]) {
+        const auto readers = model_.precondition_of[fact];
+        looks_ += readers.size();
+        for (const OperatorId op : readers) {
             if (!hmax_.is_reached(op) || hmax_.supporter(op) != fact) {
                 continue;
             }

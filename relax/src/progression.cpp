@@ -23,13 +23,16 @@ std::optional<ActionId> first_action(const GroundProblem& problem, MethodId meth
 }  // namespace
 
 Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                         bool skip_dead_methods)
+                         bool skip_dead_methods, bool use_stubborn_sets)
     : problem_(problem),
       costs_(std::move(costs)),
       transition_(problem),
       states_(transition_.word_count()),
       networks_(make_task_networks(problem, std::move(task_bounds))),
       next_(transition_.word_count()) {
+    if (use_stubborn_sets) {
+        stubborn_set_.emplace(problem);
+    }
     if (skip_dead_methods) {
         for (MethodId method = 0; method < problem.method_count(); ++method) {
             first_action_.push_back(first_action(problem, method));
@@ -56,14 +59,20 @@ void Progression::expand(StateId state, NetworkId network, std::vector<Successor
         return;
     }
     for (const Occurrence& occurrence : unconstrained_) {
-        if (!transition_.is_applicable(occurrence.task, states_[state])) {
-            continue;
-        }
-        if (costs_[occurrence.task] == 0 && transition_.has_no_effect(occurrence.task)) {
-            successors.assign(1, execute(state, network, occurrence));
+        if (costs_[occurrence.task] == 0 && transition_.has_no_effect(occurrence.task) &&
+            transition_.is_applicable(occurrence.task, states_[state])) {
+            successors.push_back(execute(state, network, occurrence));
             return;
         }
-        successors.push_back(execute(state, network, occurrence));
+    }
+    if (stubborn_set_ && unconstrained_.size() > 1) {
+        networks_->ordered_tasks(network, ordered_tasks_);
+        stubborn_set_->reduce(ordered_tasks_, states_[state], unconstrained_);
+    }
+    for (const Occurrence& occurrence : unconstrained_) {
+        if (transition_.is_applicable(occurrence.task, states_[state])) {
+            successors.push_back(execute(state, network, occurrence));
+        }
     }
 }
 

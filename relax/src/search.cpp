@@ -5,6 +5,7 @@
 #include "relax/find_plans.hpp"
 #include "relax/greedy_search.hpp"
 #include "relax/plan_based.hpp"
+#include "relax/portfolio.hpp"
 
 namespace relax {
 
@@ -15,6 +16,9 @@ SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const
     }
     if (options.algorithm == SearchAlgorithm::PlanBased) {
         return PlanBased(problem, std::move(costs), options, limits, statistics).run();
+    }
+    if (options.algorithm == SearchAlgorithm::Portfolio) {
+        return Portfolio(problem, std::move(costs), options, limits, statistics).run();
     }
     return FindPlans(problem, std::move(costs), options, limits, statistics).run();
 }

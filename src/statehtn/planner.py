@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from statehtn.core.grounding import Grounding, ground
-from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
 from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS, search_plans
 from statehtn.core.search import SEARCHES, Progress, SearchOutcome, find_plans
 from statehtn.effort import Statistics, peak_memory_mb
@@ -63,7 +63,7 @@ class Query:
             heuristic = default_heuristic(solver, search)
         for kind, name, known in (
             ("solver", solver, tuple(SOLVERS)),
-            ("heuristic", heuristic, tuple(HEURISTICS)),
+            ("heuristic", heuristic, (PORTFOLIO, *HEURISTICS)),
             ("search", search, tuple(SEARCHES)),
             ("branch", branch, (None, *BRANCHES)),
         ):
@@ -74,6 +74,8 @@ class Query:
         if solver == "plan" and heuristic not in PLAN_BASED_HEURISTICS:
             usable = " and ".join(PLAN_BASED_HEURISTICS)
             raise UsageError(f"the solver 'plan' has no state, which '{heuristic}' needs; its heuristics are {usable}")
+        if heuristic == PORTFOLIO and search not in ("astar", "anytime"):
+            raise UsageError(f"'{PORTFOLIO}' goes with the searches astar and anytime, not with '{search}'")
         if branch is not None and solver != "plan":
             raise UsageError(f"a branch belongs to the solver 'plan', not to '{solver}'")
         if weight is not None and search != "weighted":
@@ -89,7 +91,7 @@ def default_heuristic(solver: str, search: str) -> str:
     """Return the heuristic that is taken where none is given."""
     if solver == "plan":
         return PLAN_BASED_HEURISTICS[0]
-    return "ff" if search == "greedy" else "lmcut"
+    return {"greedy": "ff", "weighted": "lmcut"}.get(search, PORTFOLIO)
 
 
 def plan(
@@ -115,8 +117,8 @@ def plan(
         attitude: neutral, averse or seeking.
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
-        heuristic: a name from `HEURISTICS`; if none is given, `ff` for greedy search and `lmcut` otherwise; for the
-            solver `plan` it is `tdg` (or `blind`).
+        heuristic: a name from `HEURISTICS`; or `auto`, the default: A* with `tdg`, `potential` and `lmcut` in turn. For
+            greedy search the default is `ff`, for weighted search `lmcut`; for the solver `plan` it is `tdg` (or `blind`).
         search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
             finds one soon, and better ones until it is optimal.
         weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).

@@ -64,7 +64,7 @@ def test_every_search_keeps_what_its_status_says(search: str, problem: Problem, 
 
 
 @pytest.mark.parametrize("heuristic", [name for name in ADMISSIBLE if name != "blind"])
-@pytest.mark.parametrize("switch", ["tdg_bound", "inherit_h", "adaptive", "skip_dead_methods"])
+@pytest.mark.parametrize("switch", ["tdg_bound", "inherit_h", "adaptive", "skip_dead_methods", "stubborn_sets"])
 @given(problem=problems(), utility=utilities())
 def test_optimum_without_a_refinement(switch: str, heuristic: str, problem: Problem, utility: Utility) -> None:
     optimum = brute_force(problem, utility)

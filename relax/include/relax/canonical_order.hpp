@@ -1,6 +1,7 @@
 #ifndef RELAX_CANONICAL_ORDER_HPP
 #define RELAX_CANONICAL_ORDER_HPP
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +10,24 @@
 #include "relax/ids.hpp"
 
 namespace relax {
+
+template <typename Visit>
+void for_each_bit(std::span<const std::uint64_t> row, Visit visit) {
+    for (std::size_t word = 0; word < row.size(); ++word) {
+        for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1) {
+            visit(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+        }
+    }
+}
+
+inline bool intersect(std::span<const std::uint64_t> left, std::span<const std::uint64_t> right) {
+    for (std::size_t word = 0; word < left.size(); ++word) {
+        if ((left[word] & right[word]) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
 
 // Tasks with a transitively closed strict order: for each a row of bits, its predecessors.
 struct OrderedTasks {
@@ -29,6 +48,16 @@ struct OrderedTasks {
         return (predecessors[later * words + earlier / 64] >> (earlier % 64) & 1U) != 0;
     }
 };
+
+// Write the order turned round: for each task its successors.
+inline void turn_round(const OrderedTasks& network, OrderedTasks& reverse) {
+    reverse.tasks = network.tasks;
+    reverse.words = network.words;
+    reverse.predecessors.assign(network.predecessors.size(), 0);
+    for (std::size_t later = 0; later < network.tasks.size(); ++later) {
+        for_each_bit(network.row(later), [&](std::size_t earlier) { reverse.put_before(later, earlier); });
+    }
+}
 
 // Finds an order of the occurrences that depends on the network's structure alone, as far as colour refinement with
 // individualisation can tell: by number of predecessors, then by colour. Interchangeable occurrences may come in any

@@ -1,6 +1,7 @@
 #ifndef RELAX_FIND_PLANS_HPP
 #define RELAX_FIND_PLANS_HPP
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,11 +33,29 @@ public:
     FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);
 
-    // Throws std::overflow_error if costs add up to more than fixed point can hold.
+    // Search to the end. Throws std::overflow_error if costs add up to more than fixed point can hold.
     SearchResult run();
 
+    // Search on until `work` says so much, or to the end; false: there is more to do. Several searches take turns that
+    // way (see Portfolio). Throws as `run` does.
+    bool advance(std::uint64_t work);
+    // What it has done so far, in operators looked at or their worth.
+    std::uint64_t work() const;
+    // Plans are wanted from now on only if they cost less.
+    void set_upper_bound(Cost bound) { options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound)); }
+    // What every plan costs at least, as far as is known from the nodes that have been looked at.
+    Cost lower_bound() const { return statistics_.lower_bound.value_or(0); }
+    std::optional<Cost> best() const { return statistics_.best; }
+    // What it has come to, at the end or so far.
+    SearchResult result();
+
 private:
-    std::optional<StopReason> search();
+    std::optional<StopReason> search(std::uint64_t most_work);
+    void start();
+    Cost proven() const;
+    Cost enough() const;
+    // Whether priorities are lower bounds.
+    bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic); }
     bool is_stale(const OpenList::Entry& entry) const;
     bool evaluate(NodeId id);
     bool is_worth_asking();
@@ -66,6 +85,9 @@ private:
     std::uint32_t unasked_nodes_ = 0;
     std::uint32_t pause_ = 0;
     std::optional<NodeId> goal_;  // of the best plan so far
+    std::optional<StopReason> stop_;
+    bool is_done_ = false;
+    bool is_torn_ = false;  // memory ran out in the middle of an expansion
     std::vector<Successor> successors_;
     std::vector<TaskId> tasks_;
 };

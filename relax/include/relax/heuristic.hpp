@@ -30,6 +30,8 @@ public:
 
     // Estimate the cost that is still to come; nothing where the node is a dead end.
     virtual std::optional<Cost> evaluate(const NodeView& node) = 0;
+    // How many operators it has looked at so far, again and again; 0 where that is not worth counting.
+    virtual std::uint64_t work() const { return 0; }
     // Whether the latest evaluation's relaxed plan uses the method, if there is one.
     virtual bool is_preferred(MethodId /*method*/) const { return false; }
 };

@@ -33,6 +33,8 @@ public:
     // An operator of this task all of whose preconditions are within reach.
     bool is_reached(OperatorId op) const { return operators_[op].epoch == epoch_ && operators_[op].missing == 0; }
     RelaxedFact supporter(OperatorId op) const { return operators_[op].supporter; }
+    // How many operators have been looked at so far.
+    std::uint64_t work() const { return looks_; }
     // The dearest goal; meaningless where there are no goals.
     RelaxedFact dearest_goal() const { return dearest_goal_; }
 
@@ -61,6 +63,7 @@ private:
     std::vector<RelaxedFact> goals_;
     RelaxedFact dearest_goal_ = 0;
     std::uint32_t epoch_ = 0;
+    std::uint64_t looks_ = 0;
 };
 
 }  // namespace relax

@@ -24,6 +24,8 @@ public:
     static constexpr bool kReadsOperators = true;
 
     std::optional<Cost> run(const RelaxedTask& task);
+    // How many operators have been looked at so far.
+    std::uint64_t work() const { return looks_ + hmax_.work(); }
 
 private:
     enum class Zone : std::uint8_t { Neither, Goal, Before };
@@ -45,6 +47,7 @@ private:
     std::vector<OperatorId> changed_;
     std::vector<RelaxedFact> pending_;
     std::uint64_t rounds_ = 0;
+    std::uint64_t looks_ = 0;
 };
 
 }  // namespace relax

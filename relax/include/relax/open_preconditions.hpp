@@ -2,13 +2,13 @@
 #define RELAX_OPEN_PRECONDITIONS_HPP
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "relax/canonical_order.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
 #include "relax/state.hpp"
+#include "relax/task_profiles.hpp"
 
 namespace relax {
 
@@ -24,28 +24,13 @@ public:
     bool can_be_met(const OrderedTasks& network);
 
 private:
-    // A literal: 2 * fact, plus 1 for its negation.
-    using Literal = std::uint32_t;
-
-    struct Profile {
-        bool is_known = false;
-        std::vector<Literal> needed;         // by every case of a primitive task; none of a compound one
-        std::vector<std::uint64_t> may;      // literals that it may make true, as bits
-        std::vector<std::uint64_t> certain;  // literals that it makes false whatever the state; likewise
-    };
-
-    const Profile& profile(TaskId task);
-    Profile of_action(ActionId action) const;
     bool can_be_met(const OrderedTasks& network, std::size_t task, Literal literal);
-    void list_successors(const OrderedTasks& network);
 
-    const GroundProblem& problem_;
     StateBits initial_state_;
-    std::size_t literal_words_;
-    std::vector<Profile> profiles_;          // by TaskId, made when first asked for
-    std::vector<const Profile*> occurring_;  // by occurrence of the network looked at
-    std::vector<std::uint64_t> successors_;  // rows of bits by occurrence, likewise
-    std::vector<std::uint64_t> threats_;     // a row
+    TaskProfiles profiles_;
+    std::vector<const TaskProfile*> occurring_;  // by occurrence of the network looked at
+    OrderedTasks successors_;                    // the order turned round, likewise
+    std::vector<std::uint64_t> threats_;         // a row of it
 };
 
 }  // namespace relax

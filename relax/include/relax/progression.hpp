@@ -9,6 +9,7 @@
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
 #include "relax/state.hpp"
+#include "relax/stubborn_set.hpp"
 #include "relax/task_network.hpp"
 
 namespace relax {
@@ -31,14 +32,15 @@ struct Successor {
 // Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend
 // on the state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to
 // try the methods of one of them. An applicable action that costs and changes nothing (a method precondition) can only
-// be in the way: executing it at once is enough, too. Otherwise every applicable unconstrained action is tried. Where
-// nothing but one compound task is unconstrained, the first task of a method comes next: a method whose first task is
-// an action that is not applicable leads nowhere.
+// be in the way: executing it at once is enough, too. Otherwise the applicable unconstrained actions are tried, of
+// which a stubborn set is enough. Where nothing but one compound task is unconstrained, the first task of a method
+// comes next: a method whose first task is an action that is not applicable leads nowhere.
 class Progression {
 public:
-    // `costs`: by ActionId. `task_bounds`: see tdg_bound. `skip_dead_methods`: whether to leave out such methods.
+    // `costs`: by ActionId. `task_bounds`: see tdg_bound. `skip_dead_methods`: whether to leave out such methods;
+    // `use_stubborn_sets`: whether to leave out actions that can wait.
     Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                bool skip_dead_methods);
+                bool skip_dead_methods, bool use_stubborn_sets);
 
     StateId initial_state();
     NetworkId initial_network() { return networks_->initial(); }
@@ -59,6 +61,8 @@ private:
     std::unique_ptr<TaskNetworks> networks_;
     // By MethodId: an action that comes before all other subtasks; empty if dead methods are not to be skipped.
     std::vector<std::optional<ActionId>> first_action_;
+    std::optional<StubbornSet> stubborn_set_;
+    OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
     StateBits next_;
 };

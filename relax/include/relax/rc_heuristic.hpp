@@ -22,6 +22,13 @@ public:
         return classical_.run(task_);
     }
 
+    std::uint64_t work() const override {
+        if constexpr (requires { classical_.work(); }) {
+            return classical_.work();
+        }
+        return 0;
+    }
+
     bool is_preferred(MethodId method) const override {
         if constexpr (requires { classical_.uses(OperatorId{}); }) {
             return classical_.uses(model_.method_operator[method]);

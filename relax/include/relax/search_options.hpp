@@ -9,8 +9,9 @@
 
 namespace relax {
 
-// PlanBased searches task networks alone, the others states and task networks.
-enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased };
+// PlanBased searches task networks alone, the others states and task networks. Portfolio is A* with several heuristics
+// in turn.
+enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased, Portfolio };
 
 struct SearchOptions {
     HeuristicKind heuristic = HeuristicKind::LmCut;
@@ -20,6 +21,7 @@ struct SearchOptions {
     bool inherit_h = true;             // a node's h is at least its parent's less the cost of the step
     bool ask_adaptively = true;        // ask an admissible heuristic rarely while it tells no more than the cheap bound
     bool skip_dead_methods = true;     // leave out methods whose first task cannot be executed where it would come next
+    bool use_stubborn_sets = true;     // leave out actions that can wait until others have been executed
     std::optional<Cost> upper_bound;   // only plans that cost less are wanted
     bool branches_over_all = false;    // PlanBased tries every compound task of a network, not one
     bool checks_preconditions = true;  // PlanBased leaves out networks with a precondition that cannot be met

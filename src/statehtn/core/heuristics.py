@@ -79,6 +79,9 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
     }
 )
 
+PORTFOLIO = "auto"
+"""The name of no heuristic, but of A* with `tdg`, `potential` and `lmcut` in turn, which share what they prove."""
+
 
 class HeuristicEvaluator:
     """A heuristic on its own, for states and networks of the caller's choice."""

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
 from statehtn.core.pricing import Prices, price
 from statehtn.core.trace import read_trace
 from statehtn.errors import UnsupportedError
@@ -89,6 +89,8 @@ class SearchSwitches:
     """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
     skip_dead_methods: bool = True
     """Leave out methods whose first task would come next and cannot be executed."""
+    stubborn_sets: bool = True
+    """Leave out actions that can wait: their order with the others makes no difference."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +122,7 @@ def find_plans(
     grounding: Grounding,
     utility: Utility,
     *,
-    heuristic: str = "lmcut",
+    heuristic: str = PORTFOLIO,
     search: str = "astar",
     weight: float = 1.0,
     limits: Limits = Limits(),
@@ -132,7 +134,7 @@ def find_plans(
     Args:
         grounding: the ground problem and its cost laws.
         utility: the agent's; it prices the actions.
-        heuristic: a name in `HEURISTICS`.
+        heuristic: a name in `HEURISTICS`, or `PORTFOLIO` for A* with several of them in turn.
         search: a name in `SEARCHES`; with an admissible heuristic `astar` and `anytime` promise the optimum, `weighted`
             a plan of at most `weight` times its risk cost.
         weight: of h in the weighted search, at least 1.
@@ -151,7 +153,11 @@ def find_plans(
             continue
         options = _relax.SearchOptions()
         options.algorithm = stage.algorithm
-        options.heuristic = HEURISTICS[stage.heuristic or heuristic].kind
+        name = stage.heuristic or heuristic
+        if name == PORTFOLIO and stage.algorithm is _relax.SearchAlgorithm.AStar:
+            options.algorithm = _relax.SearchAlgorithm.Portfolio
+        else:
+            options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name].kind
         options.weight = stage.weight or weight
         options.most_evaluations = stage.most_evaluations
         options.explores = stage.explores
@@ -161,6 +167,7 @@ def find_plans(
         options.inherit_h = switches.inherit_h
         options.ask_adaptively = switches.adaptive
         options.skip_dead_methods = switches.skip_dead_methods
+        options.use_stubborn_sets = switches.stubborn_sets
         if run.stage(options):
             break
     return run.outcome()

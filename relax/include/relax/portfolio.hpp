@@ -1,0 +1,59 @@
+#ifndef RELAX_PORTFOLIO_HPP
+#define RELAX_PORTFOLIO_HPP
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "relax/find_plans.hpp"
+#include "relax/ground_problem.hpp"
+#include "relax/heuristic.hpp"
+#include "relax/ids.hpp"
+#include "relax/limits.hpp"
+#include "relax/search_options.hpp"
+#include "relax/search_result.hpp"
+
+namespace relax {
+
+// A* with several heuristics: searches of their own that take turns and share what they have proven. Which heuristic
+// pays is not to be told beforehand: the decomposition graph's bound costs next to nothing, and where all depends on
+// the hierarchy proves in milliseconds what landmark cuts do not in minutes; elsewhere it is the other way round.
+//
+// A turn is an amount of work, not of time, so that two runs are the same. Who has proven less than another one has
+// with as much work gets a small share only. The first one to end, ends all.
+class Portfolio {
+public:
+    // As for FindPlans.
+    Portfolio(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+              SearchStatistics& statistics);
+
+    SearchResult run();
+
+private:
+    static constexpr std::array kHeuristics{HeuristicKind::Tdg, HeuristicKind::Potential, HeuristicKind::LmCut};
+
+    struct Member {
+        HeuristicKind heuristic;
+        SearchStatistics statistics;
+        std::unique_ptr<FindPlans> search;  // made for its first turn
+    };
+
+    bool take_turn(Member& member, std::uint64_t work);
+    bool lags(const Member& member, std::uint64_t work) const;
+    void add_up();
+    void share_bounds();
+    SearchResult gather(Member& last);
+
+    const GroundProblem& problem_;
+    std::vector<Cost> costs_;
+    SearchOptions options_;
+    Limits& limits_;
+    SearchStatistics& statistics_;
+    std::vector<Member> members_;
+};
+
+}  // namespace relax
+
+#endif
