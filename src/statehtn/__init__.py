@@ -17,7 +17,8 @@ from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.hddl.plan_format import read_plan, write_plan
 from statehtn.model import CostDistribution, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
-from statehtn.planner import SOLVERS, plan
+from statehtn.planner import plan
+from statehtn.query import SOLVERS
 from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
 from statehtn.tabulate import tabulate_costs

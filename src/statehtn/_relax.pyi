@@ -166,6 +166,8 @@ class SearchAlgorithm(enum.Enum):
 
     PlanBased = 3
 
+    Portfolio = 4
+
 class SearchStatus(enum.Enum):
     Optimal = 0
 
@@ -211,6 +213,10 @@ class SearchOptions:
     def skip_dead_methods(self) -> bool: ...
     @skip_dead_methods.setter
     def skip_dead_methods(self, arg: bool, /) -> None: ...
+    @property
+    def use_stubborn_sets(self) -> bool: ...
+    @use_stubborn_sets.setter
+    def use_stubborn_sets(self, arg: bool, /) -> None: ...
     @property
     def upper_bound(self) -> int | None: ...
     @upper_bound.setter

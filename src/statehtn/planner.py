@@ -2,96 +2,27 @@
 
 from __future__ import annotations
 
-import math
 import os
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from statehtn.core.grounding import Grounding, ground
-from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
-from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS, search_plans
-from statehtn.core.search import SEARCHES, Progress, SearchOutcome, find_plans
+from statehtn.core.plan_based import search_plans
+from statehtn.core.search import Progress, SearchOutcome, find_plans
 from statehtn.effort import Statistics, peak_memory_mb
-from statehtn.errors import InternalError, UsageError
+from statehtn.errors import InternalError
 from statehtn.hddl import read_hddl
 from statehtn.limits import LimitReached, Limits
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
+from statehtn.query import Query
 from statehtn.result import PricedStep, Result
-from statehtn.risk import Attitude, Utility, problem_class, utility_for
+from statehtn.risk import Attitude, problem_class
 from statehtn.validate import validate
 
-SOLVERS: dict[str, str] = {
-    "state": "A* progression search over states and task networks (paper Algorithm 4)",
-    "plan": "A* search over task networks alone (paper Algorithms 1 to 3)",
-}
-DEFAULT_WEIGHT = 2.0
-
 ProgressCallback = Callable[[Progress], None]
-
-
-@dataclass(frozen=True, slots=True)
-class Query:
-    """What to optimise, and how; make one by `Query.of`, which checks it."""
-
-    utility: Utility
-    solver: str
-    heuristic: str
-    search: str
-    weight: float
-    branch: str = "fewest"
-
-    @staticmethod
-    def of(
-        attitude: Attitude | str = Attitude.NEUTRAL,
-        alpha: float | None = None,
-        solver: str = "state",
-        heuristic: str | None = None,
-        search: str = "astar",
-        weight: float | None = None,
-        branch: str | None = None,
-    ) -> Query:
-        """Check the arguments, described at `plan`.
-
-        Raises:
-            UsageError: a name is unknown, or a number out of range.
-        """
-        utility = utility_for(attitude, alpha)
-        if heuristic is None:
-            heuristic = default_heuristic(solver, search)
-        for kind, name, known in (
-            ("solver", solver, tuple(SOLVERS)),
-            ("heuristic", heuristic, (PORTFOLIO, *HEURISTICS)),
-            ("search", search, tuple(SEARCHES)),
-            ("branch", branch, (None, *BRANCHES)),
-        ):
-            if name not in known:
-                raise UsageError(f"unknown {kind} '{name}'; there are {', '.join(filter(None, known))}")
-        if solver == "plan" and search != "astar":
-            raise UsageError(f"the solver 'plan' has no search but 'astar', found '{search}'")
-        if solver == "plan" and heuristic not in PLAN_BASED_HEURISTICS:
-            usable = " and ".join(PLAN_BASED_HEURISTICS)
-            raise UsageError(f"the solver 'plan' has no state, which '{heuristic}' needs; its heuristics are {usable}")
-        if heuristic == PORTFOLIO and search not in ("astar", "anytime"):
-            raise UsageError(f"'{PORTFOLIO}' goes with the searches astar and anytime, not with '{search}'")
-        if branch is not None and solver != "plan":
-            raise UsageError(f"a branch belongs to the solver 'plan', not to '{solver}'")
-        if weight is not None and search != "weighted":
-            raise UsageError(f"a weight belongs to the weighted search, not to '{search}'")
-        if weight is not None and not (math.isfinite(weight) and weight >= 1):
-            raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
-        if search == "weighted":
-            weight = DEFAULT_WEIGHT if weight is None else weight
-        return Query(utility, solver, heuristic, search, 1.0 if weight is None else weight, branch or "fewest")
-
-
-def default_heuristic(solver: str, search: str) -> str:
-    """Return the heuristic that is taken where none is given."""
-    if solver == "plan":
-        return PLAN_BASED_HEURISTICS[0]
-    return {"greedy": "ff", "weighted": "lmcut"}.get(search, PORTFOLIO)
 
 
 def plan(
@@ -117,8 +48,9 @@ def plan(
         attitude: neutral, averse or seeking.
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
-        heuristic: a name from `HEURISTICS`; or `auto`, the default: A* with `tdg`, `potential` and `lmcut` in turn. For
-            greedy search the default is `ff`, for weighted search `lmcut`; for the solver `plan` it is `tdg` (or `blind`).
+        heuristic: a name from `HEURISTICS`, or `auto`, which is the default for `astar` and `anytime`: A* with `tdg`,
+            `potential` and `lmcut` in turn. The default is `ff` for greedy search, `lmcut` for weighted search, and
+            `tdg` for the solver `plan`, which takes `blind` besides.
         search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
             finds one soon, and better ones until it is optimal.
         weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).

@@ -83,7 +83,7 @@ def import_seconds(repeat: int) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--repeat", type=int, default=5)
-    parser.add_argument("--heuristic", default="lmcut")
+    parser.add_argument("--heuristic", default="auto")
     options = parser.parse_args()
     print(f"import statehtn: {import_seconds(options.repeat):.3f} s\n")
     print(f"{'problem':<46} {'search s':>9} {'read, ground s':>15} {'process s':>10} {'memory MB':>10} {'expanded':>9}")

@@ -4,9 +4,9 @@ Usage: python -m tests.benchmarks.search --root DIR --baseline FILE.csv [--outpu
            [--only TEXT] [--jobs N] [--most-seconds S] [--heuristic NAME] [--without SWITCH ...] [--resume]
 
 The problems are those of the baseline, each in a process of its own and under the limit that the baseline had for its
-search (`engine_limit`, at most --most-seconds), which here holds for reading and grounding, too. The baseline's columns:
-order, domain, problem, status, cost, search_time, search_time_low_h_ties, engine_limit, engine_mem_mb, expanded;
-of its two times the better one counts. A switch is a field of `SearchSwitches` that is turned off.
+search (`engine_limit`, at most --most-seconds), which here holds for reading and grounding, too. The baseline has the
+columns order, domain, problem, status, cost, search_time, search_time_low_h_ties, engine_limit, engine_mem_mb and
+expanded; of its two times the better one counts. A switch is a field of `SearchSwitches` that is turned off.
 """
 
 from __future__ import annotations
@@ -151,7 +151,8 @@ def summary(rows: list[Row], markdown: bool) -> Iterator[str]:
     for floor in (HARD, 0.1, 0.01):
         if hard := [row.ratio for row in both if (row.baseline_seconds or 0) >= floor]:
             ratio = geometric_mean(hard)
-            yield f"{bullet}{ratio:.1f} times as fast where the baseline needs {floor:g} s ({len(hard)} problems, geometric mean)"
+            problems = f"where the baseline needs {floor:g} s ({len(hard)} problems, geometric mean)"
+            yield f"{bullet}{ratio:.1f} times as fast {problems}"
     faster = sum(row.ratio > 1 for row in both)
     yield f"{bullet}faster on {faster} of the {len(both)} that both solve"
     wrong = (f"{row.name}: {row.cost}, baseline {row.baseline_cost}" for row in both if row.cost != row.baseline_cost)

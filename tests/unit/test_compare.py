@@ -90,7 +90,7 @@ def test_every_run_has_its_row(tree: Path, tmp_path: Path, capsys: Capture) -> N
         ("total-order/Errands", "p3"): "input-error",
     }
     solved = rows["total-order/Errands", "p1"]
-    assert [solved[column] for column in KEY_COLUMNS[2:]] == ["neutral", "", "state", "lmcut", "1"]
+    assert [solved[column] for column in KEY_COLUMNS[2:]] == ["neutral", "", "state", "auto", "1"]
     assert float(solved["risk_cost"]) == pytest.approx(3.4)
     assert (solved["length"], solved["log10_expected_utility"]) == ("1", "")
     assert all(float(solved[column]) > 0 for column in ("parse_seconds", "peak_memory_mb", "actions"))

@@ -13,7 +13,7 @@ import pytest
 
 import statehtn
 from statehtn.core.search import SEARCHES
-from statehtn.planner import Query
+from statehtn.query import Query
 from tests.test_minimal import DOMAIN, PROBLEM
 
 STATISTICS = {
@@ -84,6 +84,7 @@ def problem() -> statehtn.Problem:
         {"solver": "plan", "heuristic": "lmcut"},
         {"solver": "plan", "search": "greedy"},
         {"solver": "plan", "branch": "none"},
+        {"search": "greedy", "heuristic": "auto"},
         {"branch": "all"},
         {"search": "depth-first"},
         {"weight": 2.0},
@@ -212,7 +213,7 @@ def test_huge_limits_are_none(problem: statehtn.Problem) -> None:
 
 
 def test_every_search_has_a_heuristic_of_its_own() -> None:
-    assert [Query.of(search=search).heuristic for search in SEARCHES] == ["lmcut", "lmcut", "ff", "lmcut"]
+    assert [Query.of(search=search).heuristic for search in SEARCHES] == ["auto", "lmcut", "ff", "auto"]
     assert Query.of(search="greedy", heuristic="tdg").heuristic == "tdg"
 
 

@@ -5,20 +5,17 @@ from __future__ import annotations
 import csv
 import warnings
 from collections import Counter
-from itertools import groupby, product
+from itertools import groupby
 from pathlib import Path
 
 import pytest
 
 from statehtn.cli import main
-from statehtn.core.heuristics import HEURISTICS
-from statehtn.core.search import SEARCHES
 from statehtn.errors import InputError, StateHtnError, UsageError
-from statehtn.experiments import combinations, suites
-from statehtn.experiments.combinations import CHOICES, Choices, exists
+from statehtn.experiments import suites
 from statehtn.experiments.run import Grid, Run
 from statehtn.experiments.suites import runs_of
-from statehtn.planner import SOLVERS, Query
+from statehtn.query import SOLVERS
 from tests.regression.paper_tables import DOMAINS, alpha_of, rows
 from tests.test_minimal import DOMAIN, PROBLEM
 
@@ -27,41 +24,17 @@ def settings(runs: list[Run]) -> set[tuple[object, ...]]:
     return {(run.attitude, run.alpha, run.solver, run.heuristic, run.search) for run in runs}
 
 
-def test_combinations_are_those_that_the_planner_takes() -> None:
-    for solver, heuristic, search in product(SOLVERS, HEURISTICS, SEARCHES):
-        try:
-            Query.of(solver=solver, heuristic=heuristic, search=search)
-        except UsageError:
-            assert not exists(solver, heuristic, search), (solver, heuristic, search)
-        else:
-            assert exists(solver, heuristic, search), (solver, heuristic, search)
-        assert exists(solver, None, search) == any(exists(solver, name, search) for name in HEURISTICS)
-
-
-def test_the_plan_based_solver_has_few_choices() -> None:
-    assert CHOICES["plan"] == Choices(("tdg", "blind"), ("astar",))
-    assert not exists("plan", "lmcut", "astar")
-    assert not exists("plan", None, "greedy")
-    assert exists("plan", None, "astar")
-
-
-@pytest.fixture
-def _few_choices(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the state-based solver take little, so that this can be tested whatever solvers there are."""
-    few = {"state": Choices(("tdg", "blind"), ("astar", "greedy"))}
-    monkeypatch.setattr(combinations, "CHOICES", few)
-    monkeypatch.setattr(suites, "CHOICES", few)
-
-
-@pytest.mark.usefixtures("_few_choices")
 def test_what_does_not_exist_is_left_out(tree: Path) -> None:
-    asked = Grid(solvers=("state",), heuristics=("lmcut", "tdg"), searches=("astar", "weighted"))
-    with pytest.warns(UserWarning, match="left out: state lmcut, state/weighted lmcut, state/weighted tdg ") as warned:
+    asked = Grid(solvers=("plan",), heuristics=("lmcut", "tdg"), searches=("astar", "greedy"))
+    with pytest.warns(UserWarning, match="left out: ") as warned:
         runs = runs_of("ipc", asked, tree)
-    assert len(warned) == 1
-    assert settings(runs) == {("neutral", None, "state", "tdg", "astar")}
-    with pytest.raises(UsageError, match="none of these settings exists: state lmcut"):
-        runs_of("ipc", Grid(heuristics=("lmcut",)), tree)
+    assert [str(warning.message) for warning in warned] == [
+        "left out: plan lmcut (the solver 'plan' has no state, which 'lmcut' needs; its heuristics are tdg and blind)",
+        "left out: plan/greedy lmcut, plan/greedy tdg (the solver 'plan' has no search but 'astar', found 'greedy')",
+    ]
+    assert settings(runs) == {("neutral", None, "plan", "tdg", "astar")}
+    with pytest.raises(UsageError, match="none of these settings exists: plan lmcut"):
+        runs_of("ipc", Grid(solvers=("plan",), heuristics=("lmcut",)), tree)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert len(runs_of("ipc", Grid(heuristics=("tdg",)), tree)) == 3
@@ -94,7 +67,7 @@ def test_satellite_large() -> None:
     runs = runs_of("satellite-large", Grid(solvers=("state",), repeat=2), DOMAINS)
     assert len(runs) == 29 * 3 * 2
     assert settings(runs) == {
-        (attitude, None if attitude == "neutral" else 0.5, "state", "lmcut", "astar")
+        (attitude, None if attitude == "neutral" else 0.5, "state", "auto", "astar")
         for attitude in ("neutral", "averse", "seeking")
     }
     assert [repeat for repeat, _ in groupby(run.repeat for run in runs)] == [1, 2]  # all once, then all again
@@ -167,7 +140,7 @@ def test_a_file(tree: Path) -> None:
     assert {(run.instance.problem, run.time_limit, run.memory_limit) for run in first} == {("p1", 5, 4000)}
     second = [run for run in runs if run.instance.domain == "other"]
     assert [run.instance.problem for run in second] == ["p2", "p1"]
-    assert settings(second) == {("neutral", None, "state", "lmcut", "astar")}
+    assert settings(second) == {("neutral", None, "state", "auto", "astar")}
     assert {(run.repeat, run.time_limit, run.memory_limit) for run in second} == {(1, 5, 100)}
     assert [run.repeat for run in runs] == sorted(run.repeat for run in runs)
     assert settings(runs_of(suite(tree, FILE), Grid(heuristics=("blind",), repeat=1, agents=(("neutral", None),)))) == {

@@ -11,10 +11,11 @@ from statehtn.core.plan_based import BRANCHES
 from statehtn.core.search import SEARCHES
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
-from statehtn.planner import DEFAULT_WEIGHT, SOLVERS
+from statehtn.query import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
 
 PLAN_EPILOG = """heuristics:
+  auto       A* with tdg, potential and lmcut in turn, which share what they prove
 {}
 
 exit codes:
@@ -102,7 +103,9 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         help="over states and task networks (default), or over task networks alone",
     )
     search.add_argument(
-        "--heuristic", choices=list(HEURISTICS), help="default: lmcut; ff for greedy search; tdg for the solver plan"
+        "--heuristic",
+        choices=HEURISTIC_CHOICES,
+        help="default: auto; ff for greedy and lmcut for weighted search; tdg for the solver plan",
     )
     search.add_argument(
         "--search",
@@ -160,7 +163,7 @@ def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
     several("--attitude", choices=[str(attitude) for attitude in Attitude], help="default: the suite's own")
     several("--alpha", type=float, metavar="A", help="for the averse and the seeking")
     several("--solver", choices=list(SOLVERS), help="default: the suite's own, else state")
-    several("--heuristic", choices=list(HEURISTICS), help="default: that of solver and search in 'statehtn plan'")
+    several("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of solver and search in 'statehtn plan'")
     several("--search", choices=list(SEARCHES), help="default: astar")
     parser.add_argument("--repeat", type=_count, metavar="N", help="do everything so many times, one after the other")
     parser.add_argument(

@@ -11,7 +11,8 @@ from statehtn.cli.progress import ProgressLine
 from statehtn.effort import Statistics
 from statehtn.hddl.plan_format import write_plan
 from statehtn.model.status import Status
-from statehtn.planner import Query, no_plan, plan_files
+from statehtn.planner import no_plan, plan_files
+from statehtn.query import Query
 from statehtn.result import Result
 
 

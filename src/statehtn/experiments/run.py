@@ -7,9 +7,8 @@ from dataclasses import dataclass, fields
 from itertools import product
 
 from statehtn.errors import UsageError
-from statehtn.experiments.combinations import exists
 from statehtn.limits import Limits
-from statehtn.planner import Query
+from statehtn.query import Query, mismatch
 
 Agent = tuple[str, float | None]
 """An attitude to risk and its alpha, None for neutral."""
@@ -110,7 +109,7 @@ class Grid:
             (agent, Query.of(*agent, solver, heuristic, search))
             for agent in self.agents or NEUTRAL
             for solver, heuristic, search in self.combinations()
-            if exists(solver, heuristic, search)
+            if not mismatch(solver, heuristic, search)
         ]
         runs = [
             Run(

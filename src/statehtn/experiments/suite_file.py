@@ -9,12 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
-from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import is_domain
 from statehtn.experiments.run import Grid, Instance, agents_of
-from statehtn.planner import SOLVERS
+from statehtn.query import HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
 
 Part = tuple[Grid, list[Instance]]
@@ -63,7 +62,7 @@ def _part(file: Path, common: Mapping[str, Any], own: Mapping[str, Any], number:
     grid = Grid(
         agents=agents,
         solvers=table.names("solvers", SOLVERS),
-        heuristics=table.names("heuristics", HEURISTICS),
+        heuristics=table.names("heuristics", HEURISTIC_CHOICES),
         searches=table.names("searches", SEARCHES),
         repeat=table.repeat(),
         time_limit=table.positive("time-limit"),

@@ -8,11 +8,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 from statehtn.errors import InputError, UsageError
-from statehtn.experiments.combinations import CHOICES, exists
 from statehtn.experiments.instances import find_instances
 from statehtn.experiments.run import Agent, Grid, Instance, Run
 from statehtn.experiments.suite_file import Part, read_suite
-from statehtn.planner import SOLVERS
+from statehtn.query import SOLVERS, mismatch
 
 DEFAULTS = Grid(repeat=1, time_limit=60.0, memory_limit=4000.0)
 """What holds where neither the user nor the suite says anything."""
@@ -153,11 +152,11 @@ def _warn_of_missing(grids: Sequence[Grid]) -> None:
     """
     texts = {}
     for grid in grids:
-        missing = [names for names in grid.combinations() if not exists(*names)]
-        for solver, heuristic, search in missing:
-            settings = f"{solver if search == 'astar' else f'{solver}/{search}'} {heuristic or ''}".strip()
-            texts[settings] = f"the solver '{solver}' takes {CHOICES[solver]} only"
-        if len(missing) == len(grid.combinations()):
+        for solver, heuristic, search in grid.combinations():
+            if reason := mismatch(solver, heuristic, search):
+                settings = f"{solver if search == 'astar' else f'{solver}/{search}'} {heuristic or ''}".strip()
+                texts[settings] = reason
+        if all(mismatch(*names) for names in grid.combinations()):
             raise UsageError(f"none of these settings exists: {', '.join(texts)}; {'; '.join(set(texts.values()))}")
     for reason in dict.fromkeys(texts.values()):
         settings = ", ".join(name for name, text in texts.items() if text == reason)
