@@ -68,10 +68,11 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     """
     parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate|compare")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate|compare|graph")
     _add_plan(commands)
     _add_validate(commands)
     _add_compare(commands)
+    _add_graph(commands)
     return parser.parse_args(arguments)
 
 
@@ -85,16 +86,7 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         allow_abbrev=False,
     )
     _add_inputs(parser)
-    agent = parser.add_argument_group("the agent")
-    agent.add_argument(
-        "--attitude", choices=[str(attitude) for attitude in Attitude], default="neutral", help="default: neutral"
-    )
-    agent.add_argument(
-        "--alpha",
-        type=float,
-        metavar="A",
-        help="how much such an agent cares, per unit of cost",
-    )
+    _add_agent(parser)
     search = parser.add_argument_group("the search")
     search.add_argument(
         "--solver",
@@ -128,6 +120,14 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
     form = output.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print the result as one JSON object")
     form.add_argument("--quiet", action="store_true", help="print the plan's actions only, one per line")
+
+
+def _add_agent(parser: argparse.ArgumentParser) -> None:
+    agent = parser.add_argument_group("the agent")
+    agent.add_argument(
+        "--attitude", choices=[str(attitude) for attitude in Attitude], default="neutral", help="default: neutral"
+    )
+    agent.add_argument("--alpha", type=float, metavar="A", help="how much such an agent cares, per unit of cost")
 
 
 def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
@@ -192,6 +192,24 @@ def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
         "again. Without it rows go to standard output",
     )
     parser.add_argument("--quiet", action="store_true", help="show no progress and no summary")
+
+
+def _add_graph(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "graph",
+        help="write the task decomposition graph, or the relaxed model",
+        description="Write a graph of the problem: the task decomposition graph of the domain (cv-tdg), that of the "
+        "ground problem with the least risk cost of every task and method for an agent (gcv-tdg), or the relaxed model "
+        "of the initial state and network.",
+        epilog="Exit codes: 0 written, 2 usage, 30 input error, 31 unsupported feature, 74 cannot write.",
+        allow_abbrev=False,
+    )
+    _add_inputs(parser)
+    parser.add_argument(
+        "--kind", choices=("cv-tdg", "gcv-tdg", "relaxed-model"), default="gcv-tdg", help="default: gcv-tdg"
+    )
+    _add_agent(parser)
+    parser.add_argument("--output", metavar="FILE", required=True, help="*.svg, *.dot, *.gv or *.graphml")
 
 
 def _count(text: str) -> int:

@@ -40,6 +40,10 @@ def _run(options: argparse.Namespace) -> ExitCode:
             return run_plan(options)
         case "validate":
             return run_validate(options)
+        case "graph":
+            from statehtn.cli.graph_command import run_graph  # what it needs would slow down the others
+
+            return run_graph(options)
         case _:
             from statehtn.cli.compare_command import run_compare  # what it needs would slow down the others
 

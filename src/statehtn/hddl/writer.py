@@ -92,7 +92,7 @@ def _problem(problem: Problem) -> Iterator[str]:
     yield from (f"    (= ({' '.join(key)}) {_number(value)})" for key, value in problem.function_values.items())
     yield "  )"
     if problem.goal != TRUE:
-        yield f"  (:goal {_formula(problem.goal)})"
+        yield f"  (:goal {formula_text(problem.goal)})"
     if not problem.domain.has_unit_costs:
         yield f"  (:metric minimize ({TOTAL_COST}))"
     yield ")"
@@ -129,7 +129,7 @@ def _action(action: Action) -> Iterator[str]:
     effects = [_effect(effect) for effect in action.effects] + [_cost_block(block, action) for block in action.costs]
     yield f"  (:action {action.name}"
     yield f"    :parameters ({_parameters(action.parameters)})"
-    yield f"    :precondition {_formula(action.precondition)}"
+    yield f"    :precondition {formula_text(action.precondition)}"
     if effects:
         yield "    :effect (and"
         yield from (f"      {effect}" for effect in effects)
@@ -152,17 +152,17 @@ def _cost_block(block: CostBlock, action: Action) -> str:
         case ((Number(probability), cost),) if probability == 1:
             text = _increase(cost)
         case branches:
-            text = f"(probabilistic {' '.join(f'{_expression(p)} {_increase(cost)}' for p, cost in branches)})"
+            text = f"(probabilistic {' '.join(f'{expression_text(p)} {_increase(cost)}' for p, cost in branches)})"
     return _conditional(text, block.condition, block.parameters)
 
 
 def _increase(cost: Expression) -> str:
-    return f"(increase ({TOTAL_COST}) {_expression(cost)})"
+    return f"(increase ({TOTAL_COST}) {expression_text(cost)})"
 
 
 def _conditional(text: str, condition: Formula, parameters: tuple[Parameter, ...]) -> str:
     if condition != TRUE:
-        text = f"(when {_formula(condition)} {text})"
+        text = f"(when {formula_text(condition)} {text})"
     return f"(forall ({_parameters(parameters)}) {text})" if parameters else text
 
 
@@ -171,7 +171,7 @@ def _method(method: Method) -> Iterator[str]:
     yield f"    :parameters ({_parameters(method.parameters)})"
     yield f"    :task ({' '.join((method.task, *method.arguments))})"
     if method.precondition != TRUE:
-        yield f"    :precondition {_formula(method.precondition)}"
+        yield f"    :precondition {formula_text(method.precondition)}"
     yield from _network(method.network)
     yield "  )"
 
@@ -183,7 +183,7 @@ def _network(network: TaskNetwork) -> Iterator[str]:
     else:
         yield from _ordered(network)
     if network.constraints != TRUE:
-        yield f"    :constraints {_formula(network.constraints)}"
+        yield f"    :constraints {formula_text(network.constraints)}"
 
 
 def _ordered(network: TaskNetwork) -> Iterator[str]:
@@ -199,7 +199,8 @@ def _ordered(network: TaskNetwork) -> Iterator[str]:
         yield "    )"
 
 
-def _formula(formula: Formula) -> str:
+def formula_text(formula: Formula) -> str:
+    """Return a formula as HDDL."""
     match formula:
         case Atom():
             return str(formula)
@@ -208,25 +209,26 @@ def _formula(formula: Formula) -> str:
         case OfType(term, types):
             return f"(sortof {Parameter(term, types)})"
         case Not(operand):
-            return f"(not {_formula(operand)})"
+            return f"(not {formula_text(operand)})"
         case And(operands):
-            return f"(and{''.join(f' {_formula(operand)}' for operand in operands)})"
+            return f"(and{''.join(f' {formula_text(operand)}' for operand in operands)})"
         case Or(operands):
-            return f"(or{''.join(f' {_formula(operand)}' for operand in operands)})"
+            return f"(or{''.join(f' {formula_text(operand)}' for operand in operands)})"
         case Exists(parameters, body):
-            return f"(exists ({_parameters(parameters)}) {_formula(body)})"
+            return f"(exists ({_parameters(parameters)}) {formula_text(body)})"
         case Forall(parameters, body):
-            return f"(forall ({_parameters(parameters)}) {_formula(body)})"
+            return f"(forall ({_parameters(parameters)}) {formula_text(body)})"
 
 
-def _expression(expression: Expression) -> str:
+def expression_text(expression: Expression) -> str:
+    """Return a cost expression as HDDL."""
     match expression:
         case Number(value):
             return _number(value)
         case FunctionTerm(function, arguments):
             return f"({' '.join((function, *arguments))})"
         case Arithmetic(operator, operands):
-            return f"({' '.join((operator, *map(_expression, operands)))})"
+            return f"({' '.join((operator, *map(expression_text, operands)))})"
 
 
 def _number(value: Fraction) -> str:

@@ -1,0 +1,65 @@
+"""`statehtn graph`: write a problem's decomposition graphs, or its relaxed model, as a file."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from statehtn.cli.exit_codes import ExitCode
+from statehtn.cli.files import check_writable, emit, write_whole
+from statehtn.core.grounding import PLAIN, ground
+from statehtn.decomposition import (
+    ground_task_decomposition_graph,
+    task_decomposition_graph,
+    to_dot,
+    to_graphml,
+    to_svg,
+    with_values,
+)
+from statehtn.errors import UsageError
+from statehtn.hddl import read_hddl
+from statehtn.model import Problem
+from statehtn.reference import build_rc_model
+from statehtn.reference.relaxed_graph import relaxed_model_graph
+from statehtn.risk import Utility, utility_for
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+FORMATS: Mapping[str, Callable[[nx.MultiDiGraph[str]], str]] = MappingProxyType(
+    {".graphml": to_graphml, ".dot": to_dot, ".gv": to_dot, ".svg": to_svg}
+)
+
+
+def run_graph(options: argparse.Namespace) -> ExitCode:
+    """Run the command and return its exit code.
+
+    Raises:
+        StateHtnError: the options or the input are wrong, or something is missing for this kind of file.
+        OutputError: the file cannot be written.
+    """
+    suffix = Path(options.output).suffix.lower()
+    if suffix not in FORMATS:
+        raise UsageError(f"'{options.output}': expected a name that ends in {', '.join(FORMATS)}")
+    if options.kind != "gcv-tdg" and (options.attitude != "neutral" or options.alpha is not None):
+        raise UsageError(f"values for an agent are shown on the gcv-tdg, not on the {options.kind}")
+    utility = utility_for(options.attitude, options.alpha)
+    check_writable(options.output)
+    problem = read_hddl(options.domain, options.problem, strict=options.strict)
+    graph = make_graph(problem, options.kind, utility)
+    write_whole(options.output, FORMATS[suffix](graph))
+    emit(f"{options.output}: {len(graph)} nodes, {graph.number_of_edges()} edges")
+    return ExitCode.SUCCESS
+
+
+def make_graph(problem: Problem, kind: str, utility: Utility) -> nx.MultiDiGraph[str]:
+    """Return the graph of a kind: cv-tdg, gcv-tdg with values for an agent, or relaxed-model (of the initial node)."""
+    if kind == "cv-tdg":
+        return task_decomposition_graph(problem)
+    model = ground(problem, switches=PLAIN).to_model()
+    if kind == "gcv-tdg":
+        return with_values(ground_task_decomposition_graph(model), utility)
+    return relaxed_model_graph(build_rc_model(model.initial_state, [model.initial_task], model), model)

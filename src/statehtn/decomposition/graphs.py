@@ -1,0 +1,113 @@
+"""The cost-variable task decomposition graphs, lifted (CV-TDG, Definition 4.5) and ground (GCV-TDG, Definition 4.6)."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from statehtn.errors import UsageError
+from statehtn.hddl.writer import expression_text, formula_text
+from statehtn.model.costs import CostBlock
+from statehtn.model.formula import TRUE
+from statehtn.model.ground import GroundMethod, GroundProblem
+from statehtn.model.problem import Problem, TaskNetwork
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+INITIAL = "(initial network)"
+
+
+class Kind(StrEnum):
+    """Kinds of nodes."""
+
+    COMPOUND = "compound task"
+    PRIMITIVE = "primitive task"
+    METHOD = "method"
+
+
+def task_decomposition_graph(problem: Problem) -> nx.MultiDiGraph[str]:
+    """Return the graph of the domain's tasks and methods, and of the problem's initial network (Definition 4.5).
+
+    Nodes are named `task NAME` and `method NAME`.
+    """
+    graph = _empty()
+    domain = problem.domain
+    for task in domain.tasks.values():
+        variables = " ".join(parameter.name for parameter in task.parameters)
+        graph.add_node(f"task {task.name}", kind=Kind.COMPOUND, label=f"{task.name} {variables}".strip())
+    for action in domain.actions.values():
+        variables = " ".join(parameter.name for parameter in action.parameters)
+        cost = "; ".join(map(_cost_text, action.costs)) or ("1" if domain.has_unit_costs else "0")
+        label = f"{action.name} {variables}".strip()
+        graph.add_node(f"task {action.name}", kind=Kind.PRIMITIVE, label=label, cost=cost)
+    for method in domain.methods.values():
+        _add_lifted_method(graph, method.name, method.task, method.network)
+    graph.add_node("task", kind=Kind.COMPOUND, label=INITIAL)
+    _add_lifted_method(graph, "", "", problem.network)
+    return graph
+
+
+def _cost_text(block: CostBlock) -> str:
+    """Return a part of an action's cost in few words."""
+    if block.external is not None:
+        return "external"
+    outcomes = [(expression_text(probability), expression_text(cost)) for probability, cost in block.branches]
+    text = ", ".join(cost if probability == "1" else f"{cost} w.p. {probability}" for probability, cost in outcomes)
+    return text if block.condition == TRUE else f"{text} when {formula_text(block.condition)}"
+
+
+def _add_lifted_method(graph: nx.MultiDiGraph[str], name: str, task: str, network: TaskNetwork) -> None:
+    node = f"method {name}".strip()
+    graph.add_node(node, kind=Kind.METHOD, label=name or "network", ordering=network.ordering)
+    graph.add_edge(f"task {task}".strip(), node)
+    for position, subtask in enumerate(network.subtasks):
+        graph.add_edge(node, f"task {subtask.task}", position=position)
+
+
+def ground_task_decomposition_graph(problem: GroundProblem) -> nx.MultiDiGraph[str]:
+    """Return the graph of the ground tasks and methods (Definition 4.6).
+
+    An action whose cost or precondition differs from state to state is a compound task with a method for each case.
+    Method preconditions, which the ground problem has as actions without cost, are left out.
+
+    Args:
+        problem: a plain grounding, whose methods are the domain's own.
+
+    Raises:
+        UsageError: the grounding is not plain.
+    """
+    if not problem.is_plain:
+        raise UsageError("expected a plain grounding, whose methods are the domain's: ground(problem, switches=PLAIN)")
+    graph = _empty()
+    for number, action in enumerate(problem.actions):
+        if not action.is_artificial:
+            label = " ".join((action.name, *action.arguments))
+            graph.add_node(f"t{number}", kind=Kind.PRIMITIVE, label=label, law=action.cost)
+    for number, task in enumerate(problem.tasks, len(problem.actions)):
+        label = INITIAL if number == problem.initial_task else " ".join(task)
+        graph.add_node(f"t{number}", kind=Kind.COMPOUND, label=label)
+    for number, method in enumerate(problem.methods):
+        _add_ground_method(graph, problem, number, method)
+    return graph
+
+
+def _add_ground_method(graph: nx.MultiDiGraph[str], problem: GroundProblem, number: int, method: GroundMethod) -> None:
+    real = [
+        position
+        for position, task in enumerate(method.subtasks)
+        if not (problem.is_primitive(task) and problem.actions[task].is_artificial)
+    ]
+    place = {position: index for index, position in enumerate(real)}
+    ordering = tuple((place[i], place[j]) for i, j in method.ordering if i in place and j in place)
+    label = "network" if method.task == problem.initial_task else " ".join((method.name, *method.arguments)) or "case"
+    graph.add_node(f"m{number}", kind=Kind.METHOD, label=label, ordering=ordering)
+    graph.add_edge(f"t{method.task}", f"m{number}")
+    for position, index in place.items():
+        graph.add_edge(f"m{number}", f"t{method.subtasks[position]}", position=index)
+
+
+def _empty() -> nx.MultiDiGraph[str]:
+    import networkx as nx
+
+    return nx.MultiDiGraph()

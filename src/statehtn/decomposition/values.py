@@ -1,0 +1,68 @@
+"""What the tasks and methods of a ground decomposition graph are worth to an agent."""
+
+from __future__ import annotations
+
+import heapq
+import math
+from typing import TYPE_CHECKING
+
+from statehtn.decomposition.graphs import Kind
+from statehtn.model import CostDistribution
+from statehtn.risk import Utility
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+def paper_value(utility: Utility, law: CostDistribution) -> float:
+    """Return the value that the paper gives a primitive task (Algorithm 1, lines 3 and 5): not positive, maximised.
+
+    It is the expected utility for the neutral agent, and `a log10(a alpha EU)` for the others (equation 10, with the
+    sign that it needs): the risk cost's negative, in another unit.
+    """
+    return -utility.risk_cost(law) * paper_unit(utility)
+
+
+def paper_unit(utility: Utility) -> float:
+    """Return how much a risk cost of 1 is in the paper's values."""
+    return 1.0 if utility.alpha is None else utility.alpha / math.log(10)
+
+
+def least_risk_costs(graph: nx.MultiDiGraph[str], utility: Utility) -> dict[str, float]:
+    """Return for every task and method the least risk cost of its decompositions, states ignored; infinite for none.
+
+    The maximum that the paper's Algorithms 1 and 2 are after, as a cost: the least fixed point, by Knuth's
+    generalisation of Dijkstra's algorithm (1977). A task's cost is final when it is the cheapest one that is open.
+
+    Args:
+        graph: as `ground_task_decomposition_graph` returns it.
+        utility: the agent's.
+    """
+    costs = dict.fromkeys(graph, math.inf)
+    missing = {node: graph.out_degree(node) for node, kind in graph.nodes.data("kind") if kind is Kind.METHOD}
+    queue = [(utility.risk_cost(law), node) for node, law in graph.nodes.data("law") if law is not None]
+    queue += [(0.0, method) for method, count in missing.items() if count == 0]
+    heapq.heapify(queue)
+    while queue:
+        cost, node = heapq.heappop(queue)
+        if cost >= costs[node]:
+            continue
+        costs[node] = cost
+        for above in graph.predecessors(node):  # each once, however often the method has the task
+            if node in missing:
+                heapq.heappush(queue, (cost, above))
+                continue
+            missing[above] -= graph.number_of_edges(above, node)
+            if missing[above] == 0:
+                total = math.fsum(costs[subtask] for _, subtask in graph.out_edges(above))
+                heapq.heappush(queue, (total, above))
+    return costs
+
+
+def with_values(graph: nx.MultiDiGraph[str], utility: Utility) -> nx.MultiDiGraph[str]:
+    """Return a copy of a ground graph whose nodes have the attribute `risk_cost`, see `least_risk_costs`."""
+    import networkx as nx
+
+    result = graph.copy()
+    nx.set_node_attributes(result, least_risk_costs(graph, utility), "risk_cost")
+    return result
