@@ -153,10 +153,7 @@ bool FindPlans::evaluate(NodeId id) {
         node.is_evaluated = true;  // with the cheap bound, which is one, too
         return true;
     }
-    tasks_.clear();
-    progression_.networks().tasks(node.network, tasks_);
-    const auto h =
-        heuristic_->evaluate({progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
+    const auto h = heuristic_->evaluate(progression_.view(node.state, node.network));
     ++statistics_.evaluated;
     node.is_evaluated = true;
     note_answer(!h || *h > node.h);

@@ -128,11 +128,8 @@ std::optional<NodeId> GreedySearch::follow(NodeId node) {
 
 std::optional<Cost> GreedySearch::evaluate(NodeId id) {
     const SearchNode& node = nodes_[id];
-    tasks_.clear();
-    progression_.networks().tasks(node.network, tasks_);
     ++statistics_.evaluated;
-    return heuristic_->evaluate(
-        {progression_.states()[node.state], tasks_, progression_.networks().bound(node.network)});
+    return heuristic_->evaluate(progression_.view(node.state, node.network));
 }
 
 // Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.

@@ -38,14 +38,13 @@ private:
     HMax hmax_;
 };
 
-// LM-cut on what a decomposition costs beyond the cheapest one. Every method costs its slack, the sum of its subtasks'
-// bounds less its task's, and actions are free: a plan costs the sum of the network's bounds and of the slacks of the
-// methods it uses.
+// LM-cut on what a decomposition costs beyond the cheapest one, in the decomposition model. Every method costs its slack,
+// the sum of its subtasks' bounds less its task's, and actions are free: a plan costs the sum of the network's bounds and
+// of the slacks of the methods it uses.
 class SlackLmCut final : public Heuristic {
 public:
     SlackLmCut(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
-        : lm_cut_(problem, std::vector<Cost>(problem.action_count(), 0), limits,
-                  slacks(problem, tdg_bound(problem, costs))) {}
+        : lm_cut_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, costs))), limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = lm_cut_.evaluate(node);
@@ -53,6 +52,7 @@ public:
     }
 
     std::uint64_t work() const override { return lm_cut_.work(); }
+    std::uint64_t rounds() const override { return lm_cut_.rounds(); }
 
 private:
     static std::vector<Cost> slacks(const GroundProblem& problem, const std::vector<Cost>& bounds) {
@@ -97,15 +97,15 @@ std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProble
         case HeuristicKind::Tdg:
             return std::make_unique<TdgBound>();
         case HeuristicKind::HMax:
-            return std::make_unique<RcHeuristic<PricedHMax>>(problem, costs, limits);
+            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, costs), limits);
         case HeuristicKind::LmCut:
-            return std::make_unique<RcHeuristic<LmCut>>(problem, costs, limits);
+            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, costs), limits);
         case HeuristicKind::Potential:
             return std::make_unique<SlackLmCut>(problem, costs, limits);
         case HeuristicKind::Add:
-            return std::make_unique<RcHeuristic<Additive>>(problem, costs, limits);
+            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, costs), limits);
         case HeuristicKind::Ff:
-            return std::make_unique<RcHeuristic<Ff>>(problem, costs, limits);
+            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, costs), limits);
     }
     return nullptr;
 }

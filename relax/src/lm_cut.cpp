@@ -9,8 +9,7 @@ LmCut::LmCut(const RelaxedModel& model, Limits& limits)
       limits_(limits),
       hmax_(model),
       costs_(model.owner_cost),
-      zone_round_(model.fact_count(), 0),
-      zone_(model.fact_count(), Zone::Neither),
+      marks_(model.fact_count(), {0, Zone::Unknown}),
       cut_round_(model.owner_cost.size(), 0) {}
 
 std::optional<Cost> LmCut::run(const RelaxedTask& task) {
@@ -18,6 +17,9 @@ std::optional<Cost> LmCut::run(const RelaxedTask& task) {
         costs_[owner] = model_.owner_cost[owner];
     }
     lowered_.clear();
+    if (task.fact_count() > marks_.size()) {
+        marks_.resize(task.fact_count(), {0, Zone::Unknown});
+    }
     const auto first = hmax_.run(task, costs_);
     if (!first) {
         return std::nullopt;
@@ -26,8 +28,8 @@ std::optional<Cost> LmCut::run(const RelaxedTask& task) {
     Cost left = *first;
     while (left > 0 && !limits_.check()) {
         ++rounds_;
-        mark_goal_zone(hmax_.dearest_goal());
-        find_cut(task);
+        mark_goal_zone(task);
+        find_cut(task, left);
         Cost least = HMax::kInfinite;
         for (const OwnerId owner : cut_) {
             least = std::min(least, costs_[owner]);
@@ -40,74 +42,86 @@ std::optional<Cost> LmCut::run(const RelaxedTask& task) {
             const auto row = model_.owner_operators[owner];
             changed_.insert(changed_.end(), row.begin(), row.end());
         }
-        left = hmax_.lower(changed_, costs_);
+        left = hmax_.lower(task, changed_, costs_);
     }
     return total;
 }
 
 // The goal zone: the dearest goal, and all supporters of free operators that achieve a fact of the zone.
-void LmCut::mark_goal_zone(RelaxedFact goal) {
-    put_into_goal_zone(goal);
+void LmCut::mark_goal_zone(const RelaxedTask& task) {
+    entrances_.clear();
+    pending_.clear();
+    put_into_goal_zone(hmax_.dearest_goal());
     while (!pending_.empty()) {
         const RelaxedFact fact = pending_.back();
         pending_.pop_back();
-        const auto achievers = model_.achievers[fact];
-        looks_ += achievers.size();
-        for (const OperatorId op : achievers) {
-            if (costs_[model_.owner[op]] == 0 && hmax_.is_reached(op)) {
-                put_into_goal_zone(hmax_.supporter(op));
+        task.for_each_achiever(fact, [&](OperatorId op) {
+            ++looks_;
+            if (!hmax_.is_reached(op)) {
+                return;
             }
-        }
+            if (costs_[task.owner(op)] == 0) {
+                put_into_goal_zone(hmax_.supporter(op));
+            } else {
+                entrances_.push_back(op);
+            }
+        });
     }
 }
 
 // The cut: owners of operators that lead, along supporters, from what the state reaches before the goal zone into it.
-void LmCut::find_cut(const RelaxedTask& task) {
+void LmCut::find_cut(const RelaxedTask& task, Cost goal_cost) {
     cut_.clear();
-    const auto put_before = [this](RelaxedFact fact) {
-        if (zone_round_[fact] != rounds_) {
-            zone_round_[fact] = rounds_;
-            zone_[fact] = Zone::Before;
-            pending_.push_back(fact);
+    for (const OperatorId op : entrances_) {
+        const OwnerId owner = task.owner(op);
+        if (cut_round_[owner] != rounds_ && is_reached_outside(task, hmax_.supporter(op), goal_cost)) {
+            cut_round_[owner] = rounds_;
+            cut_.push_back(owner);
         }
-    };
-    for (const RelaxedFact fact : task.facts()) {
-        put_before(fact);
     }
-    while (!pending_.empty()) {
-        const RelaxedFact fact = pending_.back();
+}
+
+// Whether the state reaches the fact along supporters without the goal zone.
+bool LmCut::is_reached_outside(const RelaxedTask& task, RelaxedFact fact, Cost goal_cost) {
+    if (zone(fact) != Zone::Unknown) {
+        return zone(fact) == Zone::Reached;
+    }
+    // Until a way is found, the facts looked at count as unreached; if none is, they are.
+    bool is_reached = hmax_.cost(fact) < goal_cost;
+    marks_[fact] = {rounds_, Zone::Unreached};
+    pending_.assign(1, fact);
+    seen_.assign(1, fact);
+    while (!is_reached && !pending_.empty()) {
+        const RelaxedFact next = pending_.back();
         pending_.pop_back();
-        const auto readers = model_.precondition_of[fact];
-        looks_ += readers.size();
-        for (const OperatorId op : readers) {
-            if (!hmax_.is_reached(op) || hmax_.supporter(op) != fact) {
-                continue;
+        task.for_each_achiever(next, [&](OperatorId op) {
+            ++looks_;
+            if (is_reached || !hmax_.is_reached(op)) {
+                return;
             }
-            const auto row = model_.adds[op];
-            const bool enters = std::any_of(row.begin(), row.end(), [this](RelaxedFact made) {
-                return zone_round_[made] == rounds_ && zone_[made] == Zone::Goal;
-            });
-            if (enters) {
-                put_into_cut(model_.owner[op]);
-            } else {
-                std::for_each(row.begin(), row.end(), put_before);
+            const RelaxedFact supporter = hmax_.supporter(op);
+            if (zone(supporter) == Zone::Reached || hmax_.cost(supporter) < goal_cost) {
+                is_reached = true;
+            } else if (zone(supporter) == Zone::Unknown) {
+                marks_[supporter] = {rounds_, Zone::Unreached};
+                pending_.push_back(supporter);
+                seen_.push_back(supporter);
             }
-        }
+        });
     }
+    if (is_reached) {
+        for (const RelaxedFact looked_at : seen_) {
+            marks_[looked_at].zone = Zone::Unknown;
+        }
+        marks_[fact].zone = Zone::Reached;
+    }
+    return is_reached;
 }
 
 void LmCut::put_into_goal_zone(RelaxedFact fact) {
-    if (zone_round_[fact] != rounds_) {
-        zone_round_[fact] = rounds_;
-        zone_[fact] = Zone::Goal;
+    if (zone(fact) != Zone::Goal) {
+        marks_[fact] = {rounds_, Zone::Goal};
         pending_.push_back(fact);
-    }
-}
-
-void LmCut::put_into_cut(OwnerId owner) {
-    if (cut_round_[owner] != rounds_) {
-        cut_round_[owner] = rounds_;
-        cut_.push_back(owner);
     }
 }
 

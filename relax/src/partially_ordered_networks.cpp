@@ -44,6 +44,11 @@ void PartiallyOrderedNetworks::tasks(NetworkId network, std::vector<TaskId>& tas
     }
 }
 
+std::span<const std::uint64_t> PartiallyOrderedNetworks::predecessors(NetworkId network) const {
+    const Record& record = records_[network];
+    return {record.words, record.size * row_words(record.size)};
+}
+
 void PartiallyOrderedNetworks::ordered_tasks(NetworkId network, OrderedTasks& ordered) const {
     const Record& record = records_[network];
     ordered.reset(record.size);

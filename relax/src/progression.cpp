@@ -76,6 +76,13 @@ void Progression::expand(StateId state, NetworkId network, std::vector<Successor
     }
 }
 
+NodeView Progression::view(StateId state, NetworkId network) {
+    tasks_.clear();
+    networks_->tasks(network, tasks_);
+    return {states_[state], tasks_, networks_->bound(network), networks_->are_totally_ordered(),
+            networks_->predecessors(network)};
+}
+
 // The unconstrained compound task with the fewest methods, the first one among equals.
 std::optional<Occurrence> Progression::compound_to_decompose() const {
     std::optional<Occurrence> best;

@@ -1,9 +1,6 @@
 #include "relax/relaxed_model.hpp"
 
 #include <algorithm>
-#include <bit>
-
-#include "relax/state.hpp"
 
 namespace relax {
 
@@ -33,9 +30,47 @@ void sort_unique(std::vector<Value>& values) {
 
 }  // namespace
 
-RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs,
-                           std::span<const Cost> method_costs)
-    : complement_of_(problem.fact_count(), kAlwaysTrue) {
+RelaxedModel RelaxedModel::composition(const GroundProblem& problem, std::span<const Cost> costs) {
+    RelaxedModel model(problem, costs);
+    model.method_operator.resize(problem.method_count());
+    for (ActionId action = 0; action < problem.action_count(); ++action) {
+        const auto first = static_cast<OperatorId>(model.operator_count());
+        model.add_action(problem, action, action);
+        for (OperatorId op = first; op < model.operator_count(); ++op) {
+            model.task_operators.push(op);
+            model.operator_task.push_back(action);
+            model.operator_subtasks.finish_row();
+        }
+        model.task_operators.finish_row();
+    }
+    for (auto task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
+        for (const MethodId method : problem.methods_of(task)) {
+            model.add_composition(problem, method);
+        }
+        model.task_operators.finish_row();
+    }
+    model.index();
+    return model;
+}
+
+RelaxedModel RelaxedModel::decomposition(const GroundProblem& problem, std::span<const Cost> costs) {
+    RelaxedModel model(problem, costs);
+    model.may_start_begin_ = static_cast<RelaxedFact>(model.fact_count_);
+    model.action_starts_ = static_cast<RelaxedFact>(problem.action_count());
+    model.fact_count_ += problem.task_count();
+    for (ActionId action = 0; action < problem.action_count(); ++action) {
+        model.add_action(problem, action, model.free_owner());
+    }
+    for (MethodId method = 0; method < problem.method_count(); ++method) {
+        model.add_decomposition(problem, method);
+    }
+    model.index();
+    return model;
+}
+
+RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs)
+    : owner_cost(costs.begin(), costs.end()), complement_of_(problem.fact_count(), kAlwaysTrue) {
+    owner_cost.push_back(0);
     std::vector<FactId> negative;
     for (ActionId action = 0; action < problem.action_count(); ++action) {
         const auto row = problem.negative_preconditions[action];
@@ -46,37 +81,30 @@ RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> c
         negative.insert(negative.end(), row.begin(), row.end());
     }
     sort_unique(negative);
-    auto next = static_cast<RelaxedFact>(1 + problem.fact_count());
+    reached_begin_ = static_cast<RelaxedFact>(1 + problem.fact_count());
     for (const FactId fact : negative) {
-        complement_of_[fact] = next;
-        complements.emplace_back(fact, next++);
+        complement_of_[fact] = reached_begin_;
+        complements.emplace_back(fact, reached_begin_++);
     }
-    reached_begin_ = next;
-
-    owner_cost.assign(costs.begin(), costs.end());
-    owner_cost.insert(owner_cost.end(), method_costs.begin(), method_costs.end());
-    const bool methods_are_free = method_costs.empty();
-    if (methods_are_free) {
-        owner_cost.push_back(0);
-    }
-    method_operator.resize(problem.method_count());
-    const auto first_method = static_cast<OwnerId>(problem.action_count());
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
-        add_action(problem, action);
-    }
-    for (TaskId task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
-        for (const MethodId method : problem.methods_of(task)) {
-            method_operator[method] = static_cast<OperatorId>(owner.size());
-            task_operators.push(method_operator[method]);
-            add_method(problem, method, methods_are_free ? first_method : first_method + method);
-        }
-        task_operators.finish_row();
-    }
-    index();
+    fact_count_ = reached_begin_ + problem.task_count();
 }
 
-void RelaxedModel::add_action(const GroundProblem& problem, ActionId action) {
+void RelaxedModel::add_operator(std::vector<RelaxedFact> needed, std::vector<RelaxedFact> made, OwnerId owner_of_it) {
+    if (needed.empty()) {
+        needed.push_back(kAlwaysTrue);
+    }
+    sort_unique(needed);
+    sort_unique(made);
+    preconditions.add_row(needed);
+    adds.add_row(made);
+    owner.push_back(owner_of_it);
+}
+
+void RelaxedModel::add_action(const GroundProblem& problem, ActionId action, OwnerId owner_of_it) {
     std::vector<RelaxedFact> needed;
+    if (is_decomposition()) {
+        needed.push_back(may_start(action));
+    }
     for (const FactId fact : problem.preconditions[action]) {
         needed.push_back(holds(fact));
     }
@@ -84,19 +112,6 @@ void RelaxedModel::add_action(const GroundProblem& problem, ActionId action) {
         needed.push_back(complement_of_[fact]);
     }
     std::vector<RelaxedFact> always{reached(action)};
-    const auto add_operator = [&](std::vector<RelaxedFact> preconditions_of_it, std::vector<RelaxedFact> adds_of_it) {
-        if (preconditions_of_it.empty()) {
-            preconditions_of_it.push_back(kAlwaysTrue);
-        }
-        sort_unique(preconditions_of_it);
-        sort_unique(adds_of_it);
-        preconditions.add_row(preconditions_of_it);
-        adds.add_row(adds_of_it);
-        task_operators.push(static_cast<OperatorId>(owner.size()));
-        owner.push_back(action);
-        operator_task.push_back(action);
-        operator_subtasks.finish_row();
-    };
     for (EffectId effect = problem.effect_begin[action]; effect < problem.effect_begin[action + 1]; ++effect) {
         std::vector<RelaxedFact> made;
         for (const FactId fact : problem.effect_adds[effect]) {
@@ -118,29 +133,62 @@ void RelaxedModel::add_action(const GroundProblem& problem, ActionId action) {
             always.insert(always.end(), made.begin(), made.end());
         } else if (!made.empty()) {
             condition.insert(condition.end(), needed.begin(), needed.end());
-            add_operator(std::move(condition), std::move(made));
+            add_operator(std::move(condition), std::move(made), owner_of_it);
         }
     }
-    add_operator(std::move(needed), std::move(always));
-    task_operators.finish_row();
+    add_operator(std::move(needed), std::move(always), owner_of_it);
 }
 
-void RelaxedModel::add_method(const GroundProblem& problem, MethodId method, OwnerId owner_of_it) {
+void RelaxedModel::add_composition(const GroundProblem& problem, MethodId method) {
     const auto row = problem.method_subtasks[method];
     std::vector<TaskId> subtasks(row.begin(), row.end());
     sort_unique(subtasks);
-    operator_subtasks.add_row(subtasks);
+    std::vector<RelaxedFact> needed;
     for (const TaskId subtask : subtasks) {
-        preconditions.push(reached(subtask));
+        needed.push_back(reached(subtask));
     }
-    if (subtasks.empty()) {
-        preconditions.push(kAlwaysTrue);
-    }
-    preconditions.finish_row();
-    adds.push(reached(problem.method_task[method]));
-    adds.finish_row();
-    owner.push_back(owner_of_it);
+    method_operator[method] = static_cast<OperatorId>(operator_count());
+    task_operators.push(method_operator[method]);
     operator_task.push_back(problem.method_task[method]);
+    operator_subtasks.add_row(subtasks);
+    add_operator(std::move(needed), {reached(problem.method_task[method])}, free_owner());
+}
+
+void RelaxedModel::add_decomposition(const GroundProblem& problem, MethodId method) {
+    const TaskId task = problem.method_task[method];
+    const auto subtasks = problem.method_subtasks[method];
+    const bool costs = owner_cost[method] > 0;
+    const OwnerId pays = costs ? method : free_owner();
+    if (subtasks.empty()) {
+        add_operator({may_start(task)}, {reached(task)}, pays);
+        return;
+    }
+    std::vector<std::vector<RelaxedFact>> earlier(subtasks.size());
+    for (const auto& [first, then] : problem.method_ordering[method]) {
+        earlier[then].push_back(reached(subtasks[first]));
+    }
+    // Where entering is free, the task may start, and that is all there is to it.
+    const RelaxedFact entered = costs ? static_cast<RelaxedFact>(fact_count_++) : may_start(task);
+    std::vector<RelaxedFact> first;
+    std::vector<RelaxedFact> all;
+    if (costs) {
+        first.push_back(entered);
+        all.push_back(entered);
+    }
+    for (std::size_t at = 0; at < subtasks.size(); ++at) {
+        all.push_back(reached(subtasks[at]));
+        if (earlier[at].empty()) {
+            first.push_back(may_start(subtasks[at]));
+        }
+    }
+    add_operator({may_start(task)}, std::move(first), pays);
+    for (std::size_t at = 0; at < subtasks.size(); ++at) {
+        if (!earlier[at].empty()) {
+            earlier[at].push_back(entered);
+            add_operator(std::move(earlier[at]), {may_start(subtasks[at])}, free_owner());
+        }
+    }
+    add_operator(std::move(all), {reached(task)}, free_owner());
 }
 
 void RelaxedModel::index() {
@@ -148,51 +196,12 @@ void RelaxedModel::index() {
     achievers = invert(adds, fact_count());
     std::vector<std::vector<OperatorId>> owned(owner_cost.size());
     for (OperatorId op = 0; op < owner.size(); ++op) {
-        owned[owner[op]].push_back(op);
+        if (owner[op] != free_owner()) {
+            owned[owner[op]].push_back(op);
+        }
     }
     for (const auto& list : owned) {
         owner_operators.add_row(list);
-    }
-}
-
-void RelaxedTask::set(std::span<const std::uint64_t> state, std::span<const TaskId> tasks) {
-    ++epoch_;
-    facts_.assign(1, RelaxedModel::kAlwaysTrue);
-    for (std::size_t word = 0; word < state.size(); ++word) {
-        for (std::uint64_t bits = state[word]; bits != 0; bits &= bits - 1) {
-            const auto fact = static_cast<FactId>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
-            facts_.push_back(model_.holds(fact));
-        }
-    }
-    for (const auto& [fact, complement] : model_.complements) {
-        if (!holds(state, fact)) {
-            facts_.push_back(complement);
-        }
-    }
-    goals_.clear();
-    operators_.clear();
-    for (const TaskId task : tasks) {
-        goals_.push_back(model_.reached(task));
-        reach(task);
-    }
-    while (!pending_.empty()) {
-        const TaskId task = pending_.back();
-        pending_.pop_back();
-        for (const OperatorId op : model_.task_operators[task]) {
-            if (lists_operators_) {
-                operators_.push_back(op);
-            }
-            for (const TaskId subtask : model_.operator_subtasks[op]) {
-                reach(subtask);
-            }
-        }
-    }
-}
-
-void RelaxedTask::reach(TaskId task) {
-    if (seen_[task] != epoch_) {
-        seen_[task] = epoch_;
-        pending_.push_back(task);
     }
 }
 

@@ -89,7 +89,6 @@ private:
     bool is_done_ = false;
     bool is_torn_ = false;  // memory ran out in the middle of an expansion
     std::vector<Successor> successors_;
-    std::vector<TaskId> tasks_;
 };
 
 }  // namespace relax

@@ -59,7 +59,6 @@ private:
     std::optional<NodeId> goal_;  // of the cheapest plan so far
     std::uint64_t most_evaluations_;
     std::vector<Successor> successors_;
-    std::vector<TaskId> tasks_;
 };
 
 }  // namespace relax

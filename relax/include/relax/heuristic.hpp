@@ -22,6 +22,10 @@ struct NodeView {
     std::span<const std::uint64_t> state;  // bits by FactId
     std::span<const TaskId> tasks;         // of the network, with repetitions
     Cost tdg_bound;                        // of the network
+    // Their order: as they stand, or for each a row of bits for those before it, one after the other. No rows: nothing is
+    // known of their order.
+    bool is_totally_ordered = false;
+    std::span<const std::uint64_t> predecessors = {};
 };
 
 class Heuristic {
@@ -32,6 +36,8 @@ public:
     virtual std::optional<Cost> evaluate(const NodeView& node) = 0;
     // How many operators it has looked at so far, again and again; 0 where that is not worth counting.
     virtual std::uint64_t work() const { return 0; }
+    // How many landmark cuts it has made so far.
+    virtual std::uint64_t rounds() const { return 0; }
     // Whether the latest evaluation's relaxed plan uses the method, if there is one.
     virtual bool is_preferred(MethodId /*method*/) const { return false; }
 };

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "relax/relaxed_model.hpp"
+#include "relax/relaxed_task.hpp"
 
 namespace relax {
 
@@ -16,6 +16,9 @@ namespace relax {
 // operator's preconditions is that of the dearest one. Computed as a generalised Dijkstra search.
 // Keeps what LM-cut needs: each operator's supporter (the precondition of that highest cost), and an incremental update
 // for operators that become cheaper.
+//
+// Who reads the facts of the state is never looked up: an operator with such preconditions counts what it misses when
+// it wakes up, at the start (composition model) or when its action may start (decomposition model).
 class HMax {
 public:
     static constexpr Cost kInfinite = std::numeric_limits<Cost>::max();
@@ -27,7 +30,7 @@ public:
     std::optional<Cost> run(const RelaxedTask& task, std::span<const Cost> costs);
 
     // Update after the costs of the owners of these operators have been lowered. Returns the cost of the dearest goal.
-    Cost lower(std::span<const OperatorId> operators, std::span<const Cost> costs);
+    Cost lower(const RelaxedTask& task, std::span<const OperatorId> operators, std::span<const Cost> costs);
 
     Cost cost(RelaxedFact fact) const { return facts_[fact].epoch == epoch_ ? facts_[fact].cost : kInfinite; }
     // An operator of this task all of whose preconditions are within reach.
@@ -42,25 +45,33 @@ private:
     struct FactState {
         Cost cost;
         std::uint32_t epoch;
+        bool is_settled;  // has left the queue, or holds in the state
     };
     struct OperatorState {
         Cost supporter_cost;
         RelaxedFact supporter;
         std::uint32_t missing;  // preconditions not yet reached
         std::uint32_t epoch;
+        std::uint32_t count;  // of the preconditions; 0 for an operator that must be woken up
     };
     using QueueEntry = std::pair<Cost, RelaxedFact>;
 
+    void make_room(const RelaxedTask& task);
+    void wake(const RelaxedTask& task, OperatorId op, RelaxedFact fact, Cost cost, std::span<const Cost> costs);
+    void reach(const RelaxedTask& task, OperatorId op, RelaxedFact fact, Cost cost, std::span<const Cost> costs);
     void offer(RelaxedFact fact, Cost cost);
+    bool is_empty() const { return queue_.empty() && level_facts_.empty(); }
     QueueEntry pop();
-    void support_by_dearest(OperatorId op);
-    Cost find_dearest_goal();
+    void support_by_dearest(std::span<const RelaxedFact> preconditions, OperatorState& state) const;
+    Cost find_dearest_goal(std::span<const RelaxedFact> goals);
 
     const RelaxedModel& model_;
     std::vector<FactState> facts_;
     std::vector<OperatorState> operators_;
-    std::vector<QueueEntry> queue_;  // a heap, cheapest first
-    std::vector<RelaxedFact> goals_;
+    // The queue: facts of the present level, and a heap of the dearer ones, cheapest first.
+    Cost level_ = 0;
+    std::vector<RelaxedFact> level_facts_;
+    std::vector<QueueEntry> queue_;
     RelaxedFact dearest_goal_ = 0;
     std::uint32_t epoch_ = 0;
     std::uint64_t looks_ = 0;

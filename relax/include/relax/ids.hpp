@@ -36,6 +36,11 @@ public:
     void push(Value value) { values_.push_back(std::move(value)); }
     void finish_row() { ends_.push_back(static_cast<std::uint32_t>(values_.size())); }
 
+    void clear() {
+        ends_.clear();
+        values_.clear();
+    }
+
     template <typename Range>
     void add_row(const Range& range) {
         values_.insert(values_.end(), std::begin(range), std::end(range));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "relax/ground_problem.hpp"
+#include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
 #include "relax/state.hpp"
 #include "relax/stubborn_set.hpp"
@@ -47,6 +48,9 @@ public:
     // Replace the content of `successors` by the node's successors.
     void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
 
+    // What heuristics see of a node; valid until the next call.
+    NodeView view(StateId state, NetworkId network);
+
     const StateRegistry& states() const { return states_; }
     TaskNetworks& networks() { return *networks_; }
 
@@ -65,6 +69,7 @@ private:
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
     StateBits next_;
+    std::vector<TaskId> tasks_;
 };
 
 }  // namespace relax

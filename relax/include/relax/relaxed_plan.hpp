@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "relax/relaxed_model.hpp"
+#include "relax/relaxed_task.hpp"
 
 namespace relax {
 

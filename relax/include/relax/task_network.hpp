@@ -40,6 +40,10 @@ public:
     virtual void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const = 0;
     // Append every task of the network by index, with repetitions.
     virtual void tasks(NetworkId network, std::vector<TaskId>& tasks) const = 0;
+    // Whether every network is a list, its tasks in the order of their indices.
+    virtual bool are_totally_ordered() const = 0;
+    // Where they are not: for each task a row of bits by index, (size + 63) / 64 words, of those before it.
+    virtual std::span<const std::uint64_t> predecessors(NetworkId network) const = 0;
     // Write the tasks by index, and their order.
     virtual void ordered_tasks(NetworkId network, OrderedTasks& ordered) const = 0;
     // Take an unconstrained occurrence away. `origins`, where given, gets one entry for each occurrence of the result.
