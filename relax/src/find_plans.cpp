@@ -20,6 +20,8 @@ constexpr Cost kDeadEnd = kNoDecomposition;
 constexpr std::uint32_t kAnswerWindow = 32;
 constexpr std::uint32_t kLongestPause = 4096;
 
+constexpr std::uint32_t kMostForcedSteps = 1000;  // recursion that is forced may have no end
+
 constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
 
 }  // namespace
@@ -194,11 +196,31 @@ void FindPlans::expand(NodeId id) {
     ++statistics_.expanded;
     progression_.expand(nodes_[id].state, nodes_[id].network, successors_);
     for (const Successor& successor : successors_) {
-        generate(id, successor);
+        follow(id, successor);
     }
 }
 
-void FindPlans::generate(NodeId parent, const Successor& successor) {
+// Generate the successor, and go on from there as long as there is but one way: what is between is never open.
+void FindPlans::follow(NodeId parent, const Successor& successor) {
+    std::optional<NodeId> id = generate(parent, successor);
+    for (std::uint32_t step = 0; id && options_.follow_forced && step < kMostForcedSteps; ++step) {
+        const SearchNode& node = nodes_[*id];
+        if (!progression_.expand_if_forced(node.state, node.network, forced_)) {
+            break;
+        }
+        nodes_[*id].is_expanded = true;
+        if (forced_.empty()) {
+            return;
+        }
+        id = generate(*id, forced_.front());
+    }
+    if (id) {
+        push(*id);
+    }
+}
+
+// Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.
+std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
     const Cost g = nodes_[parent].g + successor.cost;
     if (g >= kDeadEnd) {
@@ -206,7 +228,7 @@ void FindPlans::generate(NodeId parent, const Successor& successor) {
     }
     const auto known = nodes_.find(successor.state, successor.network);
     if (known && nodes_[*known].g <= g) {
-        return;
+        return std::nullopt;
     }
     const NodeId id = known ? *known : nodes_.add(successor.state, successor.network);
     if (!known && !is_admissible(options_.heuristic)) {
@@ -219,12 +241,10 @@ void FindPlans::generate(NodeId parent, const Successor& successor) {
             goal_ = id;
             statistics_.best = g;
         }
-        return;
+        return std::nullopt;
     }
     node.h = std::max(node.h, cheap_bound(nodes_[parent], successor));
-    if (!is_too_dear(node)) {
-        push(id);
-    }
+    return is_too_dear(node) ? std::nullopt : std::optional(id);
 }
 
 Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor) {

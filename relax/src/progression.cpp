@@ -43,35 +43,70 @@ Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, 
 StateId Progression::initial_state() { return states_.intern(transition_.initial_state()); }
 
 void Progression::expand(StateId state, NetworkId network, std::vector<Successor>& successors) {
-    successors.clear();
-    unconstrained_.clear();
-    networks_->unconstrained(network, unconstrained_);
-    if (const auto compound = compound_to_decompose()) {
-        const bool comes_next = !first_action_.empty() && unconstrained_.size() == 1;
-        for (const MethodId method : problem_.methods_of(compound->task)) {
-            if (comes_next && first_action_[method] &&
-                !transition_.is_applicable(*first_action_[method], states_[state])) {
-                continue;
-            }
-            const NetworkId next = networks_->decompose(network, compound->index, method);
-            successors.push_back({state, next, 0, {compound->index, method}});
+    if (expand_if_forced(state, network, successors)) {
+        return;
+    }
+    if (!live_methods_.empty()) {
+        for (const MethodId method : live_methods_) {
+            successors.push_back(decompose(state, network, *compound_, method));
         }
         return;
     }
-    for (const Occurrence& occurrence : unconstrained_) {
-        if (costs_[occurrence.task] == 0 && transition_.has_no_effect(occurrence.task) &&
-            transition_.is_applicable(occurrence.task, states_[state])) {
-            successors.push_back(execute(state, network, occurrence));
-            return;
-        }
-    }
-    if (stubborn_set_ && unconstrained_.size() > 1) {
+    if (stubborn_set_) {
         networks_->ordered_tasks(network, ordered_tasks_);
         stubborn_set_->reduce(ordered_tasks_, states_[state], unconstrained_);
     }
     for (const Occurrence& occurrence : unconstrained_) {
         if (transition_.is_applicable(occurrence.task, states_[state])) {
             successors.push_back(execute(state, network, occurrence));
+        }
+    }
+}
+
+bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    successors.clear();
+    live_methods_.clear();
+    unconstrained_.clear();
+    networks_->unconstrained(network, unconstrained_);
+    for (const Occurrence& occurrence : unconstrained_) {
+        if (is_in_the_way(occurrence.task) && transition_.is_applicable(occurrence.task, states_[state])) {
+            successors.push_back(execute(state, network, occurrence));
+            return true;
+        }
+    }
+    compound_ = compound_to_decompose();
+    if (compound_) {
+        find_live_methods(state);
+        if (live_methods_.size() == 1) {
+            successors.push_back(decompose(state, network, *compound_, live_methods_.front()));
+        }
+        return live_methods_.size() <= 1;
+    }
+    std::optional<Occurrence> applicable;
+    for (const Occurrence& occurrence : unconstrained_) {
+        if (transition_.is_applicable(occurrence.task, states_[state])) {
+            if (applicable) {
+                return false;
+            }
+            applicable = occurrence;
+        }
+    }
+    if (applicable) {
+        successors.push_back(execute(state, network, *applicable));
+    }
+    return true;
+}
+
+bool Progression::is_in_the_way(TaskId task) const {
+    return problem_.is_primitive(task) && costs_[task] == 0 && transition_.has_no_effect(task);
+}
+
+void Progression::find_live_methods(StateId state) {
+    const bool comes_next = !first_action_.empty() && unconstrained_.size() == 1;
+    for (const MethodId method : problem_.methods_of(compound_->task)) {
+        if (!comes_next || !first_action_[method] ||
+            transition_.is_applicable(*first_action_[method], states_[state])) {
+            live_methods_.push_back(method);
         }
     }
 }
@@ -97,6 +132,10 @@ std::optional<Occurrence> Progression::compound_to_decompose() const {
         }
     }
     return best;
+}
+
+Successor Progression::decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method) {
+    return {state, networks_->decompose(network, occurrence.index, method), 0, {occurrence.index, method}};
 }
 
 Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {

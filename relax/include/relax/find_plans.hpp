@@ -61,7 +61,8 @@ private:
     bool is_worth_asking();
     void note_answer(bool told_more);
     void expand(NodeId id);
-    void generate(NodeId parent, const Successor& successor);
+    void follow(NodeId parent, const Successor& successor);
+    std::optional<NodeId> generate(NodeId parent, const Successor& successor);
     Cost cheap_bound(const SearchNode& parent, const Successor& successor);
     Cost priority(NodeId id) const;
     bool is_too_dear(const SearchNode& node) const;
@@ -89,6 +90,7 @@ private:
     bool is_done_ = false;
     bool is_torn_ = false;  // memory ran out in the middle of an expansion
     std::vector<Successor> successors_;
+    std::vector<Successor> forced_;
 };
 
 }  // namespace relax

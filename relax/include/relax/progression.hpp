@@ -33,7 +33,7 @@ struct Successor {
 // Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend
 // on the state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to
 // try the methods of one of them. An applicable action that costs and changes nothing (a method precondition) can only
-// be in the way: executing it at once is enough, too. Otherwise the applicable unconstrained actions are tried, of
+// be in the way: executing it at once is enough, whatever else is unconstrained. Otherwise the applicable unconstrained actions are tried, of
 // which a stubborn set is enough. Where nothing but one compound task is unconstrained, the first task of a method
 // comes next: a method whose first task is an action that is not applicable leads nowhere.
 class Progression {
@@ -48,6 +48,9 @@ public:
     // Replace the content of `successors` by the node's successors.
     void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
 
+    // The same where there is at most one successor, or one is enough, and that is found with little work. False, and no
+    // successors, elsewhere.
+    bool expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors);
     // What heuristics see of a node; valid until the next call.
     NodeView view(StateId state, NetworkId network);
 
@@ -56,6 +59,9 @@ public:
 
 private:
     std::optional<Occurrence> compound_to_decompose() const;
+    bool is_in_the_way(TaskId task) const;
+    void find_live_methods(StateId state);
+    Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
     Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
 
     const GroundProblem& problem_;
@@ -68,6 +74,9 @@ private:
     std::optional<StubbornSet> stubborn_set_;
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
+    // Of the node looked at: the task to decompose, if there is one, and the methods to try.
+    std::optional<Occurrence> compound_;
+    std::vector<MethodId> live_methods_;
     StateBits next_;
     std::vector<TaskId> tasks_;
 };
