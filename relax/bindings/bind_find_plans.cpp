@@ -100,6 +100,7 @@ void bind_find_plans(nb::module_& module) {
     nb::class_<relax::SearchOptions>(module, "SearchOptions")
         .def(nb::init<>())
         .def_rw("heuristic", &relax::SearchOptions::heuristic)
+        .def_rw("second_heuristic", &relax::SearchOptions::second_heuristic)
         .def_rw("algorithm", &relax::SearchOptions::algorithm)
         .def_rw("weight", &relax::SearchOptions::weight)
         .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)

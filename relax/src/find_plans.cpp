@@ -16,10 +16,6 @@ namespace {
 
 constexpr Cost kDeadEnd = kNoDecomposition;
 
-// Adaptive asking: answers are judged by the window; without a useful one, twice as many nodes as before go unasked.
-constexpr std::uint32_t kAnswerWindow = 32;
-constexpr std::uint32_t kLongestPause = 4096;
-
 constexpr std::uint32_t kMostForcedSteps = 1000;  // recursion that is forced may have no end
 
 constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
@@ -33,8 +29,13 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods, options.use_stubborn_sets),
-      heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)) {}
+      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods, options.use_stubborn_sets) {
+    const bool asks_always = !options.ask_adaptively || !is_admissible(options.heuristic);
+    heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
+    if (options.second_heuristic) {
+        heuristics_.emplace_back(make_heuristic(*options.second_heuristic, problem, costs_, limits), asks_always);
+    }
+}
 
 SearchResult FindPlans::run() {
     advance(std::numeric_limits<std::uint64_t>::max());
@@ -61,7 +62,13 @@ bool FindPlans::advance(std::uint64_t work) {
     return is_done_;
 }
 
-std::uint64_t FindPlans::work() const { return statistics_.generated * kWorkOfANode + heuristic_->work(); }
+std::uint64_t FindPlans::work() const {
+    std::uint64_t work = statistics_.generated * kWorkOfANode;
+    for (const AdaptiveHeuristic& heuristic : heuristics_) {
+        work += heuristic->work();
+    }
+    return work;
+}
 
 // No plan that is wanted costs less than this: each that was not found goes through an open node. In the middle of an
 // expansion the open list is not complete.
@@ -121,14 +128,9 @@ std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
         if (is_exact()) {
             statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
         }
-        if (!evaluate(entry.node)) {
-            continue;
+        if (evaluate(entry)) {
+            expand(entry.node);
         }
-        if (priority(entry.node) > entry.priority) {
-            push(entry.node);
-            continue;
-        }
-        expand(entry.node);
     }
     is_done_ = true;
     return std::nullopt;
@@ -145,50 +147,37 @@ bool FindPlans::is_stale(const OpenList::Entry& entry) const {
     return nodes_[entry.node].is_expanded || priority(entry.node) != entry.priority;
 }
 
-// Ask the heuristic, if it has not been asked about this pair of state and network. False if the node is a dead end.
-bool FindPlans::evaluate(NodeId id) {
-    SearchNode& node = nodes_[id];
-    if (node.is_evaluated) {
-        return true;
+// Ask the heuristics that have not been asked about this pair of state and network, until one of them raises f. Returns
+// whether none does; else the node is a dead end or goes back to the open list.
+bool FindPlans::evaluate(const OpenList::Entry& entry) {
+    SearchNode& node = nodes_[entry.node];
+    while (node.heuristics_asked < heuristics_.size()) {
+        AdaptiveHeuristic& heuristic = heuristics_[node.heuristics_asked++];
+        if (!heuristic.is_worth_asking()) {
+            continue;
+        }
+        const auto h = heuristic->evaluate(progression_.view(node.state, node.network));
+        ++statistics_.evaluated;
+        heuristic.note_answer(!h || *h > node.h);
+        if (!h) {
+            ++statistics_.dead_ends;
+            node.h = kDeadEnd;
+            return false;
+        }
+        if (is_admissible(options_.heuristic)) {
+            node.h = std::max(node.h, *h);
+        } else {
+            guides_[entry.node] = *h;
+        }
+        if (is_too_dear(node)) {
+            return false;
+        }
+        if (priority(entry.node) > entry.priority) {
+            push(entry.node);
+            return false;
+        }
     }
-    if (!is_worth_asking()) {
-        node.is_evaluated = true;  // with the cheap bound, which is one, too
-        return true;
-    }
-    const auto h = heuristic_->evaluate(progression_.view(node.state, node.network));
-    ++statistics_.evaluated;
-    node.is_evaluated = true;
-    note_answer(!h || *h > node.h);
-    if (!h) {
-        ++statistics_.dead_ends;
-        node.h = kDeadEnd;
-        return false;
-    }
-    if (is_admissible(options_.heuristic)) {
-        node.h = std::max(node.h, *h);
-    } else {
-        guides_[id] = *h;
-    }
-    return !is_too_dear(node);
-}
-
-bool FindPlans::is_worth_asking() {
-    if (!options_.ask_adaptively || !is_admissible(options_.heuristic) || unasked_nodes_ == 0) {
-        return true;
-    }
-    --unasked_nodes_;
-    return false;
-}
-
-void FindPlans::note_answer(bool told_more) {
-    ++answers_;
-    useful_answers_ += told_more ? 1 : 0;
-    if (answers_ == kAnswerWindow) {
-        pause_ = useful_answers_ > 0 ? 0 : std::clamp(2 * pause_, kAnswerWindow, kLongestPause);
-        unasked_nodes_ = pause_;
-        answers_ = 0;
-        useful_answers_ = 0;
-    }
+    return true;
 }
 
 void FindPlans::expand(NodeId id) {

@@ -9,7 +9,7 @@ namespace relax {
 
 namespace {
 
-constexpr std::uint64_t kFirstTurn = 20'000'000;  // of work
+constexpr std::uint64_t kFirstTurn = 1'000'000;  // of work
 constexpr std::uint64_t kLaggardsShare = 8;       // one part in so many
 
 }  // namespace
@@ -17,9 +17,8 @@ constexpr std::uint64_t kLaggardsShare = 8;       // one part in so many
 Portfolio::Portfolio(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
                      Limits& limits, SearchStatistics& statistics)
     : problem_(problem), costs_(std::move(costs)), options_(options), limits_(limits), statistics_(statistics) {
-    for (const HeuristicKind heuristic : kHeuristics) {
-        members_.push_back({heuristic, {}, nullptr});
-    }
+    members_.push_back({HeuristicKind::Tdg, std::nullopt, {}, nullptr});
+    members_.push_back({HeuristicKind::Potential, HeuristicKind::LmCut, {}, nullptr});
 }
 
 SearchResult Portfolio::run() {
@@ -43,6 +42,7 @@ bool Portfolio::take_turn(Member& member, std::uint64_t work) {
         SearchOptions options = options_;
         options.algorithm = SearchAlgorithm::AStar;
         options.heuristic = member.heuristic;
+        options.second_heuristic = member.second_heuristic;
         member.search = std::make_unique<FindPlans>(problem_, costs_, options, limits_, member.statistics);
         share_bounds();
     }

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "relax/adaptive_heuristic.hpp"
 #include "relax/ground_problem.hpp"
-#include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
 #include "relax/open_list.hpp"
@@ -22,8 +21,8 @@
 namespace relax {
 
 // FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower
-// bound until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristic is
-// asked, and if f rises they are put back. A pair of state and network is kept once and reopened when a cheaper way to
+// bound until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristics are
+// asked, one by one, and if f rises they are put back. A pair of state and network is kept once and reopened when a cheaper way to
 // it turns up.
 //
 // Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
@@ -57,9 +56,7 @@ private:
     // Whether priorities are lower bounds.
     bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic); }
     bool is_stale(const OpenList::Entry& entry) const;
-    bool evaluate(NodeId id);
-    bool is_worth_asking();
-    void note_answer(bool told_more);
+    bool evaluate(const OpenList::Entry& entry);
     void expand(NodeId id);
     void follow(NodeId parent, const Successor& successor);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
@@ -75,16 +72,10 @@ private:
     Limits& limits_;
     SearchStatistics& statistics_;
     Progression progression_;
-    std::unique_ptr<Heuristic> heuristic_;
+    std::vector<AdaptiveHeuristic> heuristics_;
     DuplicateRegistry nodes_;
     SegmentedArray<Cost> guides_;  // by NodeId: the estimate of a heuristic that is not admissible
     OpenList open_;
-    // Of the latest answers of the heuristic: how many there were, how many told more than the cheap bound; then how
-    // many nodes still go without an answer, and how many will the next time.
-    std::uint32_t answers_ = 0;
-    std::uint32_t useful_answers_ = 0;
-    std::uint32_t unasked_nodes_ = 0;
-    std::uint32_t pause_ = 0;
     std::optional<NodeId> goal_;  // of the best plan so far
     std::optional<StopReason> stop_;
     bool is_done_ = false;

@@ -1,7 +1,6 @@
 #ifndef RELAX_PORTFOLIO_HPP
 #define RELAX_PORTFOLIO_HPP
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,9 +16,9 @@
 
 namespace relax {
 
-// A* with several heuristics: searches of their own that take turns and share what they have proven. Which heuristic
-// pays is not to be told beforehand: the decomposition graph's bound costs next to nothing, and where all depends on
-// the hierarchy proves in milliseconds what landmark cuts do not in minutes; elsewhere it is the other way round.
+// A* with cheap and with good heuristics: two searches that take turns and share what they have proven. Which one pays is
+// not to be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in
+// milliseconds what landmark cuts do not in minutes; elsewhere it is the other way round.
 //
 // A turn is an amount of work, not of time, so that two runs are the same. Who has proven less than another one has
 // with as much work gets a small share only. The first one to end, ends all.
@@ -32,10 +31,9 @@ public:
     SearchResult run();
 
 private:
-    static constexpr std::array kHeuristics{HeuristicKind::Tdg, HeuristicKind::Potential, HeuristicKind::LmCut};
-
     struct Member {
         HeuristicKind heuristic;
+        std::optional<HeuristicKind> second_heuristic;
         SearchStatistics statistics;
         std::unique_ptr<FindPlans> search;  // made for its first turn
     };

@@ -23,8 +23,8 @@ struct SearchNode {
     NodeId parent;  // itself for the root
     std::uint32_t occurrence;
     MethodId method;    // kExecuted where the step executed an action
-    bool is_evaluated;  // `h` includes the heuristic
-    bool is_expanded;   // at its present g
+    std::uint8_t heuristics_asked;  // how many; `h` includes what they told
+    bool is_expanded;               // at its present g
 
     static constexpr MethodId kExecuted = std::numeric_limits<MethodId>::max();
 
@@ -53,7 +53,7 @@ public:
     // Add a node for a pair that is not yet there.
     NodeId add(StateId state, NetworkId network) {
         const auto id = static_cast<NodeId>(nodes_.size());
-        nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, false, false});
+        nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false});
         table_.add(hash(state, network), id,
                    [this](NodeId other) { return hash(nodes_[other].state, nodes_[other].network); });
         return id;

@@ -159,7 +159,8 @@ def find_plans(
         if name == PORTFOLIO and stage.algorithm is _relax.SearchAlgorithm.AStar:
             options.algorithm = _relax.SearchAlgorithm.Portfolio
         else:
-            options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name].kind
+            options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name.split("+")[0]].kind
+            if "+" in name: options.second_heuristic = HEURISTICS[name.split("+")[1]].kind
         options.weight = stage.weight or weight
         options.most_evaluations = stage.most_evaluations
         options.explores = stage.explores
