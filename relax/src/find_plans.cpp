@@ -32,8 +32,8 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods, options.use_stubborn_sets) {
     const bool asks_always = !options.ask_adaptively || !is_admissible(options.heuristic);
     heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
-    if (options.second_heuristic) {
-        heuristics_.emplace_back(make_heuristic(*options.second_heuristic, problem, costs_, limits), asks_always);
+    for (const HeuristicKind kind : options.more_heuristics) {
+        heuristics_.emplace_back(make_heuristic(kind, problem, costs_, limits), asks_always);
     }
 }
 
@@ -158,7 +158,7 @@ bool FindPlans::evaluate(const OpenList::Entry& entry) {
         }
         const auto h = heuristic->evaluate(progression_.view(node.state, node.network));
         ++statistics_.evaluated;
-        heuristic.note_answer(!h || *h > node.h);
+        heuristic.note_answer(!h || *h > node.h, work_of_a_node(heuristic));
         if (!h) {
             ++statistics_.dead_ends;
             node.h = kDeadEnd;
@@ -178,6 +178,14 @@ bool FindPlans::evaluate(const OpenList::Entry& entry) {
         }
     }
     return true;
+}
+
+// What a node has cost so far on average, this heuristic left out. The first one is always worth its work.
+std::uint64_t FindPlans::work_of_a_node(const AdaptiveHeuristic& heuristic) const {
+    if (&heuristic == &heuristics_.front()) {
+        return std::uint64_t{1} << 50;
+    }
+    return (work() - heuristic->work()) / std::max<std::uint64_t>(1, statistics_.expanded);
 }
 
 void FindPlans::expand(NodeId id) {

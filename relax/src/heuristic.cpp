@@ -38,21 +38,22 @@ private:
     HMax hmax_;
 };
 
-// LM-cut on what a decomposition costs beyond the cheapest one, in the decomposition model. Every method costs its slack,
-// the sum of its subtasks' bounds less its task's, and actions are free: a plan costs the sum of the network's bounds and
-// of the slacks of the methods it uses.
-class SlackLmCut final : public Heuristic {
+// A heuristic for what a decomposition costs beyond the cheapest one, in the decomposition model. Every method costs its
+// slack, the sum of its subtasks' bounds less its task's, and actions are free: a plan costs the sum of the network's
+// bounds and of the slacks of the methods it uses.
+template <typename ClassicalHeuristic>
+class Slack final : public Heuristic {
 public:
-    SlackLmCut(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
-        : lm_cut_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, costs))), limits) {}
+    Slack(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
+        : slack_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, costs))), limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
-        const auto slack = lm_cut_.evaluate(node);
+        const auto slack = slack_.evaluate(node);
         return slack && node.tdg_bound < kNoDecomposition ? std::optional(node.tdg_bound + *slack) : std::nullopt;
     }
 
-    std::uint64_t work() const override { return lm_cut_.work(); }
-    std::uint64_t rounds() const override { return lm_cut_.rounds(); }
+    std::uint64_t work() const override { return slack_.work(); }
+    std::uint64_t rounds() const override { return slack_.rounds(); }
 
 private:
     static std::vector<Cost> slacks(const GroundProblem& problem, const std::vector<Cost>& bounds) {
@@ -67,7 +68,7 @@ private:
         return slacks;
     }
 
-    RcHeuristic<LmCut> lm_cut_;
+    RcHeuristic<ClassicalHeuristic> slack_;
 };
 
 class Additive : private RelaxedPlan {
@@ -101,7 +102,9 @@ std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProble
         case HeuristicKind::LmCut:
             return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, costs), limits);
         case HeuristicKind::Potential:
-            return std::make_unique<SlackLmCut>(problem, costs, limits);
+            return std::make_unique<Slack<LmCut>>(problem, costs, limits);
+        case HeuristicKind::SlackHMax:
+            return std::make_unique<Slack<PricedHMax>>(problem, costs, limits);
         case HeuristicKind::Add:
             return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, costs), limits);
         case HeuristicKind::Ff:

@@ -17,8 +17,8 @@ constexpr std::uint64_t kLaggardsShare = 8;       // one part in so many
 Portfolio::Portfolio(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
                      Limits& limits, SearchStatistics& statistics)
     : problem_(problem), costs_(std::move(costs)), options_(options), limits_(limits), statistics_(statistics) {
-    members_.push_back({HeuristicKind::Tdg, std::nullopt, {}, nullptr});
-    members_.push_back({HeuristicKind::Potential, HeuristicKind::LmCut, {}, nullptr});
+    members_.push_back({HeuristicKind::Tdg, {}, {}, nullptr});
+    members_.push_back({HeuristicKind::SlackHMax, {HeuristicKind::Potential, HeuristicKind::LmCut}, {}, nullptr});
 }
 
 SearchResult Portfolio::run() {
@@ -42,7 +42,7 @@ bool Portfolio::take_turn(Member& member, std::uint64_t work) {
         SearchOptions options = options_;
         options.algorithm = SearchAlgorithm::AStar;
         options.heuristic = member.heuristic;
-        options.second_heuristic = member.second_heuristic;
+        options.more_heuristics = member.more_heuristics;
         member.search = std::make_unique<FindPlans>(problem_, costs_, options, limits_, member.statistics);
         share_bounds();
     }

@@ -57,6 +57,7 @@ private:
     bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic); }
     bool is_stale(const OpenList::Entry& entry) const;
     bool evaluate(const OpenList::Entry& entry);
+    std::uint64_t work_of_a_node(const AdaptiveHeuristic& heuristic) const;
     void expand(NodeId id);
     void follow(NodeId parent, const Successor& successor);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);

@@ -33,7 +33,7 @@ public:
 private:
     struct Member {
         HeuristicKind heuristic;
-        std::optional<HeuristicKind> second_heuristic;
+        std::vector<HeuristicKind> more_heuristics;
         SearchStatistics statistics;
         std::unique_ptr<FindPlans> search;  // made for its first turn
     };

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
@@ -15,7 +16,8 @@ enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased, 
 
 struct SearchOptions {
     HeuristicKind heuristic = HeuristicKind::LmCut;
-    std::optional<HeuristicKind> second_heuristic;  // A* asks it where the first leaves f as it is; both are admissible
+    // A* asks them, one by one, where those before leave f as it is; all are admissible.
+    std::vector<HeuristicKind> more_heuristics;
     SearchAlgorithm algorithm = SearchAlgorithm::AStar;
     double weight = 1.0;               // of h, for Weighted; at least 1
     bool use_tdg_bound = true;         // bound nodes by the decomposition graph before the heuristic is asked

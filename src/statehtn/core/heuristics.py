@@ -62,6 +62,7 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
             True,
             "decomposition-graph bound, plus landmark cuts on what methods cost beyond it",
         ),
+        "shmax": HeuristicInfo(_relax.HeuristicKind.SlackHMax, True, False, True, "x"),
         "add": HeuristicInfo(
             _relax.HeuristicKind.Add,
             False,

@@ -160,7 +160,7 @@ def find_plans(
             options.algorithm = _relax.SearchAlgorithm.Portfolio
         else:
             options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name.split("+")[0]].kind
-            if "+" in name: options.second_heuristic = HEURISTICS[name.split("+")[1]].kind
+            options.more_heuristics = [HEURISTICS[n].kind for n in name.split("+")[1:]]
         options.weight = stage.weight or weight
         options.most_evaluations = stage.most_evaluations
         options.explores = stage.explores
