@@ -1,5 +1,6 @@
 #include "relax/progression.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace relax {
@@ -23,7 +24,7 @@ std::optional<ActionId> first_action(const GroundProblem& problem, MethodId meth
 }  // namespace
 
 Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                         bool skip_dead_methods, bool use_stubborn_sets)
+                         bool skip_dead_methods, bool use_stubborn_sets, bool forget_facts)
     : problem_(problem),
       costs_(std::move(costs)),
       transition_(problem),
@@ -33,6 +34,9 @@ Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, 
     if (use_stubborn_sets) {
         stubborn_set_.emplace(problem);
     }
+    if (forget_facts) {
+        relevant_facts_.emplace(problem);
+    }
     if (skip_dead_methods) {
         for (MethodId method = 0; method < problem.method_count(); ++method) {
             first_action_.push_back(first_action(problem, method));
@@ -40,7 +44,10 @@ Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, 
     }
 }
 
-StateId Progression::initial_state() { return states_.intern(transition_.initial_state()); }
+StateId Progression::initial_state() {
+    next_ = transition_.initial_state();
+    return keep_relevant(initial_network());
+}
 
 void Progression::expand(StateId state, NetworkId network, std::vector<Successor>& successors) {
     if (expand_if_forced(state, network, successors)) {
@@ -135,15 +142,29 @@ std::optional<Occurrence> Progression::compound_to_decompose() const {
 }
 
 Successor Progression::decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method) {
-    return {state, networks_->decompose(network, occurrence.index, method), 0, {occurrence.index, method}};
+    const NetworkId next = networks_->decompose(network, occurrence.index, method);
+    if (relevant_facts_) {
+        std::ranges::copy(states_[state], next_.begin());
+        state = keep_relevant(next);
+    }
+    return {state, next, 0, {occurrence.index, method}};
 }
 
 Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {
     transition_.apply(occurrence.task, states_[state], next_);
-    return {states_.intern(next_),
-            networks_->progress(network, occurrence.index),
-            costs_[occurrence.task],
-            {occurrence.index, std::nullopt}};
+    const NetworkId next = networks_->progress(network, occurrence.index);
+    return {keep_relevant(next), next, costs_[occurrence.task], {occurrence.index, std::nullopt}};
+}
+
+// Returns the state of the facts in `next_`, as far as they matter to the network.
+StateId Progression::keep_relevant(NetworkId network) {
+    if (relevant_facts_) {
+        const auto relevant = relevant_facts_->of(*networks_, network);
+        for (std::size_t word = 0; word < next_.size(); ++word) {
+            next_[word] &= relevant[word];
+        }
+    }
+    return states_.intern(next_);
 }
 
 }  // namespace relax

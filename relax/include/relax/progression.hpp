@@ -9,6 +9,7 @@
 #include "relax/ground_problem.hpp"
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
+#include "relax/relevant_facts.hpp"
 #include "relax/state.hpp"
 #include "relax/stubborn_set.hpp"
 #include "relax/task_network.hpp"
@@ -39,9 +40,10 @@ struct Successor {
 class Progression {
 public:
     // `costs`: by ActionId. `task_bounds`: see tdg_bound. `skip_dead_methods`: whether to leave out such methods;
-    // `use_stubborn_sets`: whether to leave out actions that can wait.
+    // `use_stubborn_sets`: whether to leave out actions that can wait; `forget_facts`: whether states keep only what
+    // matters to their networks.
     Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                bool skip_dead_methods, bool use_stubborn_sets);
+                bool skip_dead_methods, bool use_stubborn_sets, bool forget_facts);
 
     StateId initial_state();
     NetworkId initial_network() { return networks_->initial(); }
@@ -62,6 +64,7 @@ private:
     bool is_in_the_way(TaskId task) const;
     void find_live_methods(StateId state);
     Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
+    StateId keep_relevant(NetworkId network);
     Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
 
     const GroundProblem& problem_;
@@ -72,6 +75,7 @@ private:
     // By MethodId: an action that comes before all other subtasks; empty if dead methods are not to be skipped.
     std::vector<std::optional<ActionId>> first_action_;
     std::optional<StubbornSet> stubborn_set_;
+    std::optional<RelevantFacts> relevant_facts_;
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
     // Of the node looked at: the task to decompose, if there is one, and the methods to try.

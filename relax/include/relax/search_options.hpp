@@ -25,6 +25,7 @@ struct SearchOptions {
     bool ask_adaptively = true;        // ask an admissible heuristic rarely while it tells no more than the cheap bound
     bool skip_dead_methods = true;     // leave out methods whose first task cannot be executed where it would come next
     bool use_stubborn_sets = true;     // leave out actions that can wait until others have been executed
+    bool forget_facts = true;          // states keep only the facts that matter to what is left to do
     bool follow_forced = true;         // go on at once where there is but one way
     std::optional<Cost> upper_bound;   // only plans that cost less are wanted
     bool branches_over_all = false;    // PlanBased tries every compound task of a network, not one

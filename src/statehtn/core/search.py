@@ -91,6 +91,8 @@ class SearchSwitches:
     """Leave out methods whose first task would come next and cannot be executed."""
     stubborn_sets: bool = True
     """Leave out actions that can wait: their order with the others makes no difference."""
+    forget_facts: bool = True
+    """States keep only the facts that something still to be done may read."""
     follow_forced: bool = True
     """Go on at once from a node that has but one way to go on; it is never open nor evaluated."""
 
@@ -171,6 +173,7 @@ def find_plans(
         options.ask_adaptively = switches.adaptive
         options.skip_dead_methods = switches.skip_dead_methods
         options.use_stubborn_sets = switches.stubborn_sets
+        options.forget_facts = switches.forget_facts
         options.follow_forced = switches.follow_forced
         if run.stage(options):
             break
