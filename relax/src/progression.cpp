@@ -1,6 +1,7 @@
 #include "relax/progression.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace relax {
@@ -53,26 +54,18 @@ void Progression::expand(StateId state, NetworkId network, std::vector<Successor
     if (expand_if_forced(state, network, successors)) {
         return;
     }
-    if (!live_methods_.empty()) {
-        for (const MethodId method : live_methods_) {
-            successors.push_back(decompose(state, network, *compound_, method));
-        }
-        return;
+    for (const MethodId method : live_methods_) {
+        successors.push_back(decompose(state, network, *compound_, method));
     }
-    if (stubborn_set_) {
-        networks_->ordered_tasks(network, ordered_tasks_);
-        stubborn_set_->reduce(ordered_tasks_, states_[state], unconstrained_);
-    }
-    for (const Occurrence& occurrence : unconstrained_) {
-        if (transition_.is_applicable(occurrence.task, states_[state])) {
-            successors.push_back(execute(state, network, occurrence));
-        }
+    for (const Occurrence& occurrence : to_execute_) {
+        successors.push_back(execute(state, network, occurrence));
     }
 }
 
 bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors) {
     successors.clear();
     live_methods_.clear();
+    to_execute_.clear();
     unconstrained_.clear();
     networks_->unconstrained(network, unconstrained_);
     for (const Occurrence& occurrence : unconstrained_) {
@@ -84,24 +77,38 @@ bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector
     compound_ = compound_to_decompose();
     if (compound_) {
         find_live_methods(state);
-        if (live_methods_.size() == 1) {
-            successors.push_back(decompose(state, network, *compound_, live_methods_.front()));
-        }
-        return live_methods_.size() <= 1;
     }
-    std::optional<Occurrence> applicable;
-    for (const Occurrence& occurrence : unconstrained_) {
-        if (transition_.is_applicable(occurrence.task, states_[state])) {
-            if (applicable) {
-                return false;
-            }
-            applicable = occurrence;
-        }
+    choose_actions(state, network);
+    if (live_methods_.size() + to_execute_.size() > 1) {
+        return false;
     }
-    if (applicable) {
-        successors.push_back(execute(state, network, *applicable));
+    if (!live_methods_.empty()) {
+        successors.push_back(decompose(state, network, *compound_, live_methods_.front()));
+    } else if (!to_execute_.empty()) {
+        successors.push_back(execute(state, network, to_execute_.front()));
     }
     return true;
+}
+
+// Execute the actions of a stubborn set instead of decomposing, if they are no more than the methods.
+void Progression::choose_actions(StateId state, NetworkId network) {
+    const bool has_actions = std::ranges::any_of(
+        unconstrained_, [this](const Occurrence& occurrence) { return problem_.is_primitive(occurrence.task); });
+    if (!has_actions || (compound_ && live_methods_.size() <= 1)) {
+        return;
+    }
+    if (stubborn_set_ && unconstrained_.size() > 1) {
+        networks_->ordered_tasks(network, ordered_tasks_);
+        const auto found = stubborn_set_->find(ordered_tasks_, states_[state], unconstrained_);
+        if (found && (!compound_ || found->size() <= live_methods_.size())) {
+            live_methods_.clear();
+            to_execute_.assign(found->begin(), found->end());
+        }
+    } else if (!compound_) {
+        std::ranges::copy_if(unconstrained_, std::back_inserter(to_execute_), [&](const Occurrence& occurrence) {
+            return transition_.is_applicable(occurrence.task, states_[state]);
+        });
+    }
 }
 
 bool Progression::is_in_the_way(TaskId task) const {

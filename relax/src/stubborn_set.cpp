@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <limits>
 
 namespace relax {
@@ -17,25 +18,31 @@ bool is_true(std::span<const std::uint64_t> state, Literal literal) {
 
 }  // namespace
 
-void StubbornSet::reduce(const OrderedTasks& network, std::span<const std::uint64_t> state,
-                         std::vector<Occurrence>& unconstrained) {
+std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks& network,
+                                                             std::span<const std::uint64_t> state,
+                                                             std::span<const Occurrence> unconstrained) {
     turn_round(network, successors_);
     occurring_.clear();
     for (const TaskId task : network.tasks) {
         occurring_.push_back(&profiles_[task]);
     }
     is_open_.assign(network.words, 0);
+    is_compound_.assign(network.words, 0);
     is_applicable_.assign(network.words, 0);
     for (const Occurrence& occurrence : unconstrained) {
         add(is_open_, occurrence.index);
-        if (transition_.is_applicable(occurrence.task, state)) {
+        if (!problem_.is_primitive(occurrence.task)) {
+            add(is_compound_, occurrence.index);
+        } else if (transition_.is_applicable(occurrence.task, state)) {
             add(is_applicable_, occurrence.index);
         }
     }
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     std::vector<std::uint64_t> best;
     for (const Occurrence& seed : unconstrained) {
-        close(network, state, seed.index);
+        if (has(is_compound_, seed.index) || !close(network, state, seed.index)) {
+            continue;
+        }
         const auto count = static_cast<std::size_t>(
             std::ranges::count_if(members_, [this](std::uint32_t member) { return has(is_applicable_, member); }));
         if (count < fewest) {
@@ -46,13 +53,18 @@ void StubbornSet::reduce(const OrderedTasks& network, std::span<const std::uint6
             break;
         }
     }
-    std::erase_if(unconstrained, [&](const Occurrence& occurrence) {
-        return !has(best, occurrence.index) || !has(is_applicable_, occurrence.index);
+    if (best.empty()) {
+        return std::nullopt;
+    }
+    found_.clear();
+    std::ranges::copy_if(unconstrained, std::back_inserter(found_), [&](const Occurrence& occurrence) {
+        return has(best, occurrence.index) && has(is_applicable_, occurrence.index);
     });
+    return found_;
 }
 
-// Make the smallest set with this member.
-void StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed) {
+// Make the smallest set with this member. False if a compound task would have to be in it.
+bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed) {
     members_.clear();
     is_member_.assign(network.words, 0);
     is_after_.assign(network.words, 0);
@@ -63,20 +75,24 @@ void StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
             if (has(is_member_, other) || has(is_after_, other) || !concerns(*occurring_[other], member, state)) {
                 continue;
             }
-            if (has(is_open_, other)) {
-                put(other);
-                continue;
-            }
-            // Something unconstrained is before it and not a member, else it would be after one or unconstrained.
-            const auto row = network.row(other);
-            for (std::size_t word = 0; word < row.size(); ++word) {
-                if (const std::uint64_t bits = row[word] & is_open_[word]) {
-                    put(static_cast<std::uint32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits))));
-                    break;
+            std::uint32_t first = other;
+            if (!has(is_open_, other)) {
+                // Something unconstrained is before it and not a member, else it would be after one or unconstrained.
+                const auto row = network.row(other);
+                for (std::size_t word = 0; word < row.size(); ++word) {
+                    if (const std::uint64_t bits = row[word] & is_open_[word]) {
+                        first = static_cast<std::uint32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+                        break;
+                    }
                 }
             }
+            if (has(is_compound_, first)) {
+                return false;
+            }
+            put(first);
         }
     }
+    return true;
 }
 
 void StubbornSet::put(std::uint32_t index) {

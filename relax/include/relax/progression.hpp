@@ -63,6 +63,7 @@ private:
     std::optional<Occurrence> compound_to_decompose() const;
     bool is_in_the_way(TaskId task) const;
     void find_live_methods(StateId state);
+    void choose_actions(StateId state, NetworkId network);
     Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
     StateId keep_relevant(NetworkId network);
     Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
@@ -78,9 +79,10 @@ private:
     std::optional<RelevantFacts> relevant_facts_;
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
-    // Of the node looked at: the task to decompose, if there is one, and the methods to try.
+    // Of the node looked at: the task to decompose, if there is one; the methods or else the actions to try.
     std::optional<Occurrence> compound_;
     std::vector<MethodId> live_methods_;
+    std::vector<Occurrence> to_execute_;
     StateBits next_;
     std::vector<TaskId> tasks_;
 };

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,34 +17,38 @@
 namespace relax {
 
 // Which of a network's unconstrained actions need to be tried next: a set such that no plan loses anything if one of
-// it comes first (after Valmari's stubborn sets, 1989). The rest of the network, as far as it is not ordered after the
-// set, must not interfere with an applicable action of the set, nor make a false precondition of another one true.
+// it comes first (after Valmari's stubborn sets, 1989), before any other action and before any task is decomposed. The
+// rest of the network, compound tasks with all that they may lead to included, as far as it is not ordered after the set, must not interfere with an applicable action of the set, nor make a false precondition of another one true.
 // Every task has to be executed some time; the first one of the set can then be moved to the front of any plan.
 class StubbornSet {
 public:
-    explicit StubbornSet(const GroundProblem& problem) : profiles_(problem), transition_(problem) {}
+    explicit StubbornSet(const GroundProblem& problem)
+        : problem_(problem), profiles_(problem), transition_(problem) {}
 
-    // Keep of `unconstrained`, which must all be actions, the applicable ones of a small such set. Where nothing is
-    // left, the node is a dead end.
-    void reduce(const OrderedTasks& network, std::span<const std::uint64_t> state,
-                std::vector<Occurrence>& unconstrained);
+    // Find the applicable ones of the smallest such set: where there are none, the node is a dead end. Nothing, where
+    // every set has to do with an unconstrained compound task. Valid until the next call.
+    std::optional<std::span<const Occurrence>> find(const OrderedTasks& network, std::span<const std::uint64_t> state,
+                                                    std::span<const Occurrence> unconstrained);
 
 private:
-    void close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed);
+    bool close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed);
     bool concerns(const TaskProfile& other, std::uint32_t member, std::span<const std::uint64_t> state) const;
     void put(std::uint32_t index);
 
+    const GroundProblem& problem_;
     TaskProfiles profiles_;
     StateTransition transition_;
     // Of the network looked at.
     OrderedTasks successors_;
     std::vector<const TaskProfile*> occurring_;  // by occurrence
     std::vector<std::uint64_t> is_open_;         // a row: the unconstrained ones
+    std::vector<std::uint64_t> is_compound_;     // a row: unconstrained, too
     std::vector<std::uint64_t> is_applicable_;   // a row
     // The set being made.
     std::vector<std::uint32_t> members_;
     std::vector<std::uint64_t> is_member_;  // a row
     std::vector<std::uint64_t> is_after_;   // a row: what is ordered after a member
+    std::vector<Occurrence> found_;
 };
 
 }  // namespace relax
