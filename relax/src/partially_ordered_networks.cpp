@@ -82,30 +82,29 @@ void PartiallyOrderedNetworks::replace(NetworkId network, std::uint32_t index, s
     const std::size_t words = row_words(record.size);
     draft_.reset(kept + subtasks.size());
     draft_origins_.clear();
-    const auto moved = [index](std::uint32_t old) { return old < index ? old : old - 1; };
+    const auto moved = [index](std::size_t old) { return old < index ? old : old - 1; };
+    const auto row_of = [&](std::uint32_t old) { return std::span(record.words + old * words, words); };
     for (std::uint32_t old = 0; old < record.size; ++old) {
-        const std::uint64_t* row = record.words + old * words;
-        if (old != index) {
-            draft_.tasks[moved(old)] = task(record, old);
-            draft_origins_.push_back({false, old});
+        if (old == index) {
+            continue;
         }
-        for (std::uint32_t earlier = 0; earlier < record.size; ++earlier) {
-            if ((row[earlier / 64] >> (earlier % 64) & 1U) == 0) {
-                continue;
-            }
-            if (old == index) {
-                for (std::size_t subtask = 0; subtask < subtasks.size(); ++subtask) {
-                    draft_.put_before(moved(earlier), kept + subtask);
-                }
-            } else if (earlier != index) {
+        draft_.tasks[moved(old)] = task(record, old);
+        draft_origins_.push_back({false, old});
+        for_each_bit(row_of(old), [&](std::size_t earlier) {
+            if (earlier != index) {
                 draft_.put_before(moved(earlier), moved(old));
-            } else {
-                for (std::size_t subtask = 0; subtask < subtasks.size(); ++subtask) {
-                    draft_.put_before(kept + subtask, moved(old));
-                }
+                return;
             }
-        }
+            for (std::size_t subtask = 0; subtask < subtasks.size(); ++subtask) {
+                draft_.put_before(kept + subtask, moved(old));
+            }
+        });
     }
+    for_each_bit(row_of(index), [&](std::size_t earlier) {
+        for (std::size_t subtask = 0; subtask < subtasks.size(); ++subtask) {
+            draft_.put_before(moved(earlier), kept + subtask);
+        }
+    });
     for (std::uint32_t subtask = 0; subtask < subtasks.size(); ++subtask) {
         draft_.tasks[kept + subtask] = subtasks[subtask];
         draft_origins_.push_back({true, subtask});
@@ -122,14 +121,16 @@ NetworkId PartiallyOrderedNetworks::intern(std::vector<Origin>* origins) {
     const std::size_t count = draft_.tasks.size();
     const std::size_t words = row_words(count);
     const auto order = canonical_.of(draft_);
+    place_.resize(count);
+    for (std::size_t index = 0; index < count; ++index) {
+        place_[order[index]] = static_cast<std::uint32_t>(index);
+    }
     form_.assign(form_words(count), 0);
     Cost bound = 0;
     for (std::size_t index = 0; index < count; ++index) {
-        for (std::size_t earlier = 0; earlier < count; ++earlier) {
-            if (draft_.is_before(order[earlier], order[index])) {
-                form_[index * words + earlier / 64] |= std::uint64_t{1} << (earlier % 64);
-            }
-        }
+        for_each_bit(draft_.row(order[index]), [&](std::size_t earlier) {
+            form_[index * words + place_[earlier] / 64] |= std::uint64_t{1} << (place_[earlier] % 64);
+        });
         const TaskId task = draft_.tasks[order[index]];
         form_[count * words + index / 2] |= std::uint64_t{task} << (index % 2 * 32);
         bound = add_bounds(bound, task_bounds_[task]);

@@ -52,6 +52,7 @@ private:
     OrderedTasks draft_;
     std::vector<Origin> draft_origins_;
     CanonicalOrder canonical_;
+    std::vector<std::uint32_t> place_;  // in the canonical order, by index in the draft
     std::vector<std::uint64_t> form_;
 };
 
