@@ -1,6 +1,7 @@
 #include "relax/partially_ordered_networks.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "relax/tdg_bound.hpp"
@@ -9,88 +10,123 @@ namespace relax {
 
 namespace {
 
-std::size_t row_words(std::size_t count) { return (count + 63) / 64; }
-std::size_t form_words(std::size_t count) { return count * row_words(count) + (count + 1) / 2; }
+std::uint64_t hash_step(ComponentId component, std::uint32_t index, MethodId method) {
+    return combine((std::uint64_t{component} << 32) | index, method);
+}
 
 }  // namespace
 
 PartiallyOrderedNetworks::PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds)
-    : problem_(problem), task_bounds_(std::move(task_bounds)) {}
+    : problem_(problem), components_(std::move(task_bounds)) {}
 
 NetworkId PartiallyOrderedNetworks::initial() {
     draft_.reset(1);
     draft_.tasks[0] = problem_.initial_task;
-    draft_origins_.assign(1, {true, 0});
-    return intern(nullptr);
+    list_.assign(1, components_.intern(draft_, nullptr));
+    return intern(list_);
 }
 
 void PartiallyOrderedNetworks::unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const {
-    const Record& record = records_[network];
-    const std::size_t words = row_words(record.size);
-    // The canonical order starts with the occurrences without predecessors.
-    for (std::uint32_t index = 0; index < record.size; ++index) {
-        const std::uint64_t* row = record.words + index * words;
-        if (std::any_of(row, row + words, [](std::uint64_t word) { return word != 0; })) {
-            break;
+    std::uint32_t begin = 0;
+    for (const ComponentId id : components(network)) {
+        for (std::uint32_t index = 0; index < components_.unconstrained(id); ++index) {
+            occurrences.push_back({begin + index, components_.task(id, index)});
         }
-        occurrences.push_back({index, task(record, index)});
+        begin += components_.size(id);
     }
 }
 
 void PartiallyOrderedNetworks::tasks(NetworkId network, std::vector<TaskId>& tasks) const {
-    const Record& record = records_[network];
-    for (std::uint32_t index = 0; index < record.size; ++index) {
-        tasks.push_back(task(record, index));
+    for (const ComponentId id : components(network)) {
+        for (std::uint32_t index = 0; index < components_.size(id); ++index) {
+            tasks.push_back(components_.task(id, index));
+        }
     }
 }
 
-std::span<const std::uint64_t> PartiallyOrderedNetworks::predecessors(NetworkId network) const {
-    const Record& record = records_[network];
-    return {record.words, record.size * row_words(record.size)};
-}
-
 void PartiallyOrderedNetworks::ordered_tasks(NetworkId network, OrderedTasks& ordered) const {
-    const Record& record = records_[network];
-    ordered.reset(record.size);
-    std::copy(record.words, record.words + ordered.predecessors.size(), ordered.predecessors.begin());
-    for (std::uint32_t index = 0; index < record.size; ++index) {
-        ordered.tasks[index] = task(record, index);
+    ordered.reset(size(network));
+    std::size_t begin = 0;
+    for (const ComponentId id : components(network)) {
+        for (std::uint32_t index = 0; index < components_.size(id); ++index) {
+            ordered.tasks[begin + index] = components_.task(id, index);
+            for_each_bit(components_.row(id, index),
+                         [&](std::size_t earlier) { ordered.put_before(begin + earlier, begin + index); });
+        }
+        begin += components_.size(id);
     }
 }
 
 NetworkId PartiallyOrderedNetworks::progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) {
-    replace(network, index, std::nullopt);
-    return intern(origins);
+    return step(network, index, kExecuted, origins);
 }
 
 NetworkId PartiallyOrderedNetworks::decompose(NetworkId network, std::uint32_t index, MethodId method,
                                               std::vector<Origin>* origins) {
-    replace(network, index, method);
-    return intern(origins);
+    return step(network, index, method, origins);
 }
 
-TaskId PartiallyOrderedNetworks::task(const Record& record, std::uint32_t index) const {
-    const std::uint64_t* tasks = record.words + record.size * row_words(record.size);
-    return static_cast<TaskId>(tasks[index / 2] >> (index % 2 * 32));
+NetworkId PartiallyOrderedNetworks::step(NetworkId network, std::uint32_t index, MethodId method,
+                                         std::vector<Origin>* origins) {
+    const auto old = components(network);
+    std::size_t changed = 0;
+    std::uint32_t begin = 0;
+    while (index >= begin + components_.size(old[changed])) {
+        begin += components_.size(old[changed++]);
+    }
+    const auto made = change(old[changed], index - begin, method);
+    list_.clear();
+    std::merge(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(changed), made.begin(), made.end(),
+               std::back_inserter(list_));
+    const auto middle = static_cast<std::ptrdiff_t>(list_.size());
+    list_.insert(list_.end(), old.begin() + static_cast<std::ptrdiff_t>(changed) + 1, old.end());
+    std::inplace_merge(list_.begin(), list_.begin() + middle, list_.end());
+    const NetworkId result = intern(list_);
+    if (origins != nullptr) {
+        trace(network, changed, begin, index - begin, method, *origins);
+    }
+    return result;
 }
 
-// Draft the network without an occurrence, and with the method's subtasks, where one is given, in its place.
-void PartiallyOrderedNetworks::replace(NetworkId network, std::uint32_t index, std::optional<MethodId> method) {
-    const Record& record = records_[network];
-    const auto subtasks = method ? problem_.method_subtasks[*method] : std::span<const TaskId>{};
-    const std::uint32_t kept = record.size - 1;
-    const std::size_t words = row_words(record.size);
+// Returns the components, sorted, that a component falls into by a step.
+std::span<const ComponentId> PartiallyOrderedNetworks::change(ComponentId component, std::uint32_t index,
+                                                              MethodId method) {
+    const std::uint64_t hash = hash_step(component, index, method);
+    const auto known = transition_table_.find(hash, [&](std::uint32_t id) {
+        const Transition& transition = transitions_[id];
+        return transition.from == component && transition.index == index && transition.method == method;
+    });
+    if (known) {
+        return {transitions_[*known].to, transitions_[*known].count};
+    }
+    replace(component, index, method);
+    split(parts_);
+    const auto to = lists_.allocate(parts_.size());
+    std::ranges::transform(parts_, to.begin(), &Part::id);
+    std::ranges::sort(to);
+    transitions_.push_back({component, index, method, static_cast<std::uint32_t>(to.size()), to.data()});
+    transition_table_.add(hash, static_cast<std::uint32_t>(transitions_.size() - 1), [this](std::uint32_t id) {
+        return hash_step(transitions_[id].from, transitions_[id].index, transitions_[id].method);
+    });
+    return to;
+}
+
+// Draft the component without a task, and with the method's subtasks, where one is given, in its place. Origins are as
+// if the component were a network.
+void PartiallyOrderedNetworks::replace(ComponentId component, std::uint32_t index, MethodId method) {
+    const auto subtasks = method == kExecuted ? std::span<const TaskId>{} : problem_.method_subtasks[method];
+    const std::uint32_t size = components_.size(component);
+    const std::uint32_t kept = size - 1;
     draft_.reset(kept + subtasks.size());
     draft_origins_.clear();
     const auto moved = [index](std::size_t old) { return old < index ? old : old - 1; };
-    const auto row_of = [&](std::uint32_t old) { return std::span(record.words + old * words, words); };
-    for (std::uint32_t old = 0; old < record.size; ++old) {
+    for (std::uint32_t old = 0; old < size; ++old) {
         if (old == index) {
             continue;
         }
-        draft_.tasks[moved(old)] = task(record, old);
+        draft_.tasks[moved(old)] = components_.task(component, old);
         draft_origins_.push_back({false, old});
-        for_each_bit(row_of(old), [&](std::size_t earlier) {
+        for_each_bit(components_.row(component, old), [&](std::size_t earlier) {
             if (earlier != index) {
                 draft_.put_before(moved(earlier), moved(old));
                 return;
@@ -100,7 +136,7 @@ void PartiallyOrderedNetworks::replace(NetworkId network, std::uint32_t index, s
             }
         });
     }
-    for_each_bit(row_of(index), [&](std::size_t earlier) {
+    for_each_bit(components_.row(component, index), [&](std::size_t earlier) {
         for (std::size_t subtask = 0; subtask < subtasks.size(); ++subtask) {
             draft_.put_before(moved(earlier), kept + subtask);
         }
@@ -109,52 +145,104 @@ void PartiallyOrderedNetworks::replace(NetworkId network, std::uint32_t index, s
         draft_.tasks[kept + subtask] = subtasks[subtask];
         draft_origins_.push_back({true, subtask});
     }
-    if (method) {
-        for (const auto& [earlier, later] : problem_.method_ordering[*method]) {
+    if (method != kExecuted) {
+        for (const auto& [earlier, later] : problem_.method_ordering[method]) {
             draft_.put_before(kept + earlier, kept + later);
         }
     }
 }
 
-// Bring the draft into its canonical form and keep it, unless it is there already.
-NetworkId PartiallyOrderedNetworks::intern(std::vector<Origin>* origins) {
+// Part the draft by its order, and keep the parts.
+void PartiallyOrderedNetworks::split(std::vector<Part>& parts) {
     const std::size_t count = draft_.tasks.size();
-    const std::size_t words = row_words(count);
-    const auto order = canonical_.of(draft_);
-    place_.resize(count);
-    for (std::size_t index = 0; index < count; ++index) {
-        place_[order[index]] = static_cast<std::uint32_t>(index);
-    }
-    form_.assign(form_words(count), 0);
-    Cost bound = 0;
-    for (std::size_t index = 0; index < count; ++index) {
-        for_each_bit(draft_.row(order[index]), [&](std::size_t earlier) {
-            form_[index * words + place_[earlier] / 64] |= std::uint64_t{1} << (place_[earlier] % 64);
+    part_of_.resize(count);
+    std::iota(part_of_.begin(), part_of_.end(), 0U);
+    const auto root = [this](std::uint32_t index) {
+        while (part_of_[index] != index) {
+            index = part_of_[index] = part_of_[part_of_[index]];
+        }
+        return index;
+    };
+    for (std::uint32_t later = 0; later < count; ++later) {
+        for_each_bit(draft_.row(later), [&](std::size_t earlier) {
+            part_of_[root(static_cast<std::uint32_t>(earlier))] = root(later);
         });
-        const TaskId task = draft_.tasks[order[index]];
-        form_[count * words + index / 2] |= std::uint64_t{task} << (index % 2 * 32);
-        bound = add_bounds(bound, task_bounds_[task]);
     }
-    if (origins != nullptr) {
-        origins->clear();
-        for (const std::uint32_t old : order) {
-            origins->push_back(draft_origins_[old]);
+    parts.clear();
+    place_.resize(count);
+    std::vector<std::uint32_t> members;
+    for (std::uint32_t leader = 0; leader < count; ++leader) {
+        if (root(leader) != leader) {
+            continue;
+        }
+        members.clear();
+        for (std::uint32_t index = 0; index < count; ++index) {
+            if (root(index) == leader) {
+                place_[index] = static_cast<std::uint32_t>(members.size());
+                members.push_back(index);
+            }
+        }
+        part_.reset(members.size());
+        for (const std::uint32_t index : members) {
+            part_.tasks[place_[index]] = draft_.tasks[index];
+            for_each_bit(draft_.row(index),
+                         [&](std::size_t earlier) { part_.put_before(place_[earlier], place_[index]); });
+        }
+        Part part{components_.intern(part_, &order_), {}};
+        for (const std::uint32_t place : order_) {
+            part.origins.push_back(draft_origins_[members[place]]);
+        }
+        parts.push_back(std::move(part));
+    }
+}
+
+// Tell where the occurrences come from in the network that a step from this one leads to: the components that stay, and
+// the parts of the changed one, in the order of their numbers.
+void PartiallyOrderedNetworks::trace(NetworkId network, std::size_t changed, std::uint32_t begin, std::uint32_t index,
+                                     MethodId method, std::vector<Origin>& origins) {
+    replace(components(network)[changed], index, method);
+    split(parts_);
+    for (Part& part : parts_) {
+        for (Origin& origin : part.origins) {
+            origin.index += origin.is_subtask ? 0 : begin;
         }
     }
-    const std::uint64_t hash = hash_values(form_);
-    const auto known = table_.find(hash, [&](NetworkId id) {
-        return records_[id].size == count && std::equal(form_.begin(), form_.end(), records_[id].words);
-    });
+    std::uint32_t here = 0;
+    const auto old = components(network);
+    for (std::size_t at = 0; at < old.size(); ++at) {
+        const std::uint32_t size = components_.size(old[at]);
+        if (at != changed) {
+            parts_.push_back({old[at], {}});
+            for (std::uint32_t place = 0; place < size; ++place) {
+                parts_.back().origins.push_back({false, here + place});
+            }
+        }
+        here += size;
+    }
+    std::ranges::stable_sort(parts_, {}, &Part::id);
+    origins.clear();
+    for (const Part& part : parts_) {
+        origins.insert(origins.end(), part.origins.begin(), part.origins.end());
+    }
+}
+
+NetworkId PartiallyOrderedNetworks::intern(std::span<const ComponentId> list) {
+    const std::uint64_t hash = hash_values(list);
+    const auto known = table_.find(hash, [&](NetworkId id) { return std::ranges::equal(list, components(id)); });
     if (known) {
         return *known;
     }
+    Record record{nullptr, 0, static_cast<std::uint32_t>(list.size()), 0};
+    for (const ComponentId id : list) {
+        record.bound = add_bounds(record.bound, components_.bound(id));
+        record.size += components_.size(id);
+    }
+    const auto run = lists_.allocate(list.size());
+    std::ranges::copy(list, run.begin());
+    record.components = run.data();
     const auto id = static_cast<NetworkId>(records_.size());
-    const auto run = words_.allocate(form_.size());
-    std::copy(form_.begin(), form_.end(), run.begin());
-    records_.push_back({run.data(), bound, static_cast<std::uint32_t>(count)});
-    table_.add(hash, id, [this](NetworkId other) {
-        return hash_values(std::span(records_[other].words, form_words(records_[other].size)));
-    });
+    records_.push_back(record);
+    table_.add(hash, id, [this](NetworkId other) { return hash_values(components(other)); });
     return id;
 }
 

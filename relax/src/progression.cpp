@@ -126,10 +126,13 @@ void Progression::find_live_methods(StateId state) {
 }
 
 NodeView Progression::view(StateId state, NetworkId network) {
-    tasks_.clear();
-    networks_->tasks(network, tasks_);
-    return {states_[state], tasks_, networks_->bound(network), networks_->are_totally_ordered(),
-            networks_->predecessors(network)};
+    if (!networks_->are_totally_ordered()) {
+        networks_->ordered_tasks(network, ordered_tasks_);
+        return {states_[state], ordered_tasks_.tasks, networks_->bound(network), false, ordered_tasks_.predecessors};
+    }
+    ordered_tasks_.tasks.clear();
+    networks_->tasks(network, ordered_tasks_.tasks);
+    return {states_[state], ordered_tasks_.tasks, networks_->bound(network), true, {}};
 }
 
 // The unconstrained compound task with the fewest methods, the first one among equals.

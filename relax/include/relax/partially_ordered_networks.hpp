@@ -1,20 +1,21 @@
 #ifndef RELAX_PARTIALLY_ORDERED_NETWORKS_HPP
 #define RELAX_PARTIALLY_ORDERED_NETWORKS_HPP
 
-#include <optional>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "relax/canonical_order.hpp"
 #include "relax/id_table.hpp"
+#include "relax/network_components.hpp"
 #include "relax/segmented_array.hpp"
 #include "relax/task_network.hpp"
 
 namespace relax {
 
-// Occurrences with a transitively closed order, brought into a canonical order before they are kept. Two networks get
-// the same number only if their canonical forms are equal to the letter, which is a verified isomorphism; that
-// isomorphic networks always meet in one form is not promised, and nothing but work depends on it.
+// Networks as bags of components: tasks of one have no order with those of another. A step changes one component, which
+// may fall into several, and what becomes of it is the same in every network; so it is found out once. An occurrence's
+// index counts through the components in the order of their numbers.
 class PartiallyOrderedNetworks final : public TaskNetworks {
 public:
     PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds);
@@ -23,7 +24,6 @@ public:
     void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const override;
     void tasks(NetworkId network, std::vector<TaskId>& tasks) const override;
     bool are_totally_ordered() const override { return false; }
-    std::span<const std::uint64_t> predecessors(NetworkId network) const override;
     void ordered_tasks(NetworkId network, OrderedTasks& ordered) const override;
     NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) override;
     NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
@@ -31,29 +31,56 @@ public:
     std::uint32_t size(NetworkId network) const override { return records_[network].size; }
 
 private:
-    // `words`: first the predecessor rows, then the tasks, two to a word.
     struct Record {
-        const std::uint64_t* words;
+        const ComponentId* components;  // sorted
         Cost bound;
+        std::uint32_t count;  // of components
         std::uint32_t size;
     };
+    // What becomes of a component by a step.
+    struct Transition {
+        ComponentId from;
+        std::uint32_t index;
+        MethodId method;  // kExecuted where the task is executed
+        std::uint32_t count;
+        const ComponentId* to;
+    };
+    // A component of the network being built, and where its occurrences come from.
+    struct Part {
+        ComponentId id;
+        std::vector<Origin> origins;
+    };
+    static constexpr MethodId kExecuted = static_cast<MethodId>(-1);
 
-    TaskId task(const Record& record, std::uint32_t index) const;
-    void replace(NetworkId network, std::uint32_t index, std::optional<MethodId> method);
-    NetworkId intern(std::vector<Origin>* origins);
+    std::span<const ComponentId> components(NetworkId network) const {
+        return {records_[network].components, records_[network].count};
+    }
+    NetworkId step(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins);
+    std::span<const ComponentId> change(ComponentId component, std::uint32_t index, MethodId method);
+    void replace(ComponentId component, std::uint32_t index, MethodId method);
+    void split(std::vector<Part>& parts);
+    void trace(NetworkId network, std::size_t changed, std::uint32_t begin, std::uint32_t index, MethodId method,
+               std::vector<Origin>& origins);
+    NetworkId intern(std::span<const ComponentId> components);
 
     const GroundProblem& problem_;
-    std::vector<Cost> task_bounds_;
-    RunArena<std::uint64_t> words_;
+    NetworkComponents components_;
+    RunArena<ComponentId> lists_;
     SegmentedArray<Record> records_;
     IdTable table_;
+    SegmentedArray<Transition> transitions_;
+    IdTable transition_table_;
 
-    // The network being built.
+    // The component being changed.
     OrderedTasks draft_;
     std::vector<Origin> draft_origins_;
-    CanonicalOrder canonical_;
-    std::vector<std::uint32_t> place_;  // in the canonical order, by index in the draft
-    std::vector<std::uint64_t> form_;
+    std::vector<std::uint32_t> part_of_;  // by index in the draft
+    std::vector<std::uint32_t> place_;    // likewise, in its part
+    std::vector<Part> parts_;
+    std::vector<std::uint32_t> order_;
+    OrderedTasks part_;
+    // The network being built.
+    std::vector<ComponentId> list_;
 };
 
 }  // namespace relax

@@ -84,7 +84,6 @@ private:
     std::vector<MethodId> live_methods_;
     std::vector<Occurrence> to_execute_;
     StateBits next_;
-    std::vector<TaskId> tasks_;
 };
 
 }  // namespace relax

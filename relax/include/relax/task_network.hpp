@@ -3,7 +3,8 @@
 
 // Task networks as the search meets them: immutable, each kept once and known by a number. Where every method is
 // totally ordered, a network is a list that shares its rest with others (TotallyOrderedNetworks); otherwise it is a set
-// of occurrences with a transitively closed order in a canonical form (PartiallyOrderedNetworks).
+// of components, each a set of occurrences with a transitively closed order in a canonical form
+// (PartiallyOrderedNetworks).
 
 #include <cstdint>
 #include <memory>
@@ -42,8 +43,6 @@ public:
     virtual void tasks(NetworkId network, std::vector<TaskId>& tasks) const = 0;
     // Whether every network is a list, its tasks in the order of their indices.
     virtual bool are_totally_ordered() const = 0;
-    // Where they are not: for each task a row of bits by index, (size + 63) / 64 words, of those before it.
-    virtual std::span<const std::uint64_t> predecessors(NetworkId network) const = 0;
     // Write the tasks by index, and their order.
     virtual void ordered_tasks(NetworkId network, OrderedTasks& ordered) const = 0;
     // Take an unconstrained occurrence away. `origins`, where given, gets one entry for each occurrence of the result.

@@ -21,7 +21,6 @@ public:
     void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const override;
     void tasks(NetworkId network, std::vector<TaskId>& tasks) const override;
     bool are_totally_ordered() const override { return true; }
-    std::span<const std::uint64_t> predecessors(NetworkId /*network*/) const override { return {}; }
     void ordered_tasks(NetworkId network, OrderedTasks& ordered) const override;
     NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) override;
     NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
