@@ -80,7 +80,7 @@ void bind_find_plans(nb::module_& module) {
         .value("HMax", relax::HeuristicKind::HMax)
         .value("LmCut", relax::HeuristicKind::LmCut)
         .value("Potential", relax::HeuristicKind::Potential)
-        .value("SlackHMax", relax::HeuristicKind::SlackHMax)
+        .value("PotentialHMax", relax::HeuristicKind::PotentialHMax)
         .value("Add", relax::HeuristicKind::Add)
         .value("Ff", relax::HeuristicKind::Ff);
     nb::enum_<relax::SearchAlgorithm>(module, "SearchAlgorithm")
@@ -101,7 +101,6 @@ void bind_find_plans(nb::module_& module) {
     nb::class_<relax::SearchOptions>(module, "SearchOptions")
         .def(nb::init<>())
         .def_rw("heuristic", &relax::SearchOptions::heuristic)
-        .def_rw("more_heuristics", &relax::SearchOptions::more_heuristics)
         .def_rw("algorithm", &relax::SearchOptions::algorithm)
         .def_rw("weight", &relax::SearchOptions::weight)
         .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)

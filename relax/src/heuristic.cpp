@@ -103,7 +103,7 @@ std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProble
             return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, costs), limits);
         case HeuristicKind::Potential:
             return std::make_unique<Slack<LmCut>>(problem, costs, limits);
-        case HeuristicKind::SlackHMax:
+        case HeuristicKind::PotentialHMax:
             return std::make_unique<Slack<PricedHMax>>(problem, costs, limits);
         case HeuristicKind::Add:
             return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, costs), limits);

@@ -19,7 +19,7 @@ Portfolio::Portfolio(const GroundProblem& problem, std::vector<Cost> costs, cons
     : problem_(problem), costs_(std::move(costs)), options_(options), limits_(limits), statistics_(statistics) {
     members_.push_back({HeuristicKind::Tdg, {}, {}, nullptr});
     members_.push_back({HeuristicKind::LmCut, {}, {}, nullptr});
-    members_.push_back({HeuristicKind::SlackHMax, {HeuristicKind::Potential, HeuristicKind::LmCut}, {}, nullptr});
+    members_.push_back({HeuristicKind::PotentialHMax, {HeuristicKind::Potential, HeuristicKind::LmCut}, {}, nullptr});
 }
 
 SearchResult Portfolio::run() {

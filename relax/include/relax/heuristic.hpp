@@ -12,7 +12,7 @@
 
 namespace relax {
 
-enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut, Potential, SlackHMax, Add, Ff };
+enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut, Potential, PotentialHMax, Add, Ff };
 
 // An admissible heuristic never estimates more than is true.
 constexpr bool is_admissible(HeuristicKind kind) { return kind != HeuristicKind::Add && kind != HeuristicKind::Ff; }

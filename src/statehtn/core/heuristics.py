@@ -60,9 +60,15 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
             True,
             False,
             True,
-            "decomposition-graph bound, plus landmark cuts on what methods cost beyond it",
+            "decomposition-graph bound, plus landmark cuts on what methods cost beyond it, in the order of the hierarchy",
         ),
-        "shmax": HeuristicInfo(_relax.HeuristicKind.SlackHMax, True, False, True, "x"),
+        "potential-hmax": HeuristicInfo(
+            _relax.HeuristicKind.PotentialHMax,
+            True,
+            False,
+            True,
+            "the same with the max heuristic instead of landmark cuts: a little less, in a fraction of the time",
+        ),
         "add": HeuristicInfo(
             _relax.HeuristicKind.Add,
             False,

@@ -161,8 +161,7 @@ def find_plans(
         if name == PORTFOLIO and stage.algorithm is _relax.SearchAlgorithm.AStar:
             options.algorithm = _relax.SearchAlgorithm.Portfolio
         else:
-            options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name.split("+")[0]].kind
-            options.more_heuristics = [HEURISTICS[n].kind for n in name.split("+")[1:]]
+            options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name].kind
         options.weight = stage.weight or weight
         options.most_evaluations = stage.most_evaluations
         options.explores = stage.explores
