@@ -68,10 +68,11 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     """
     parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate|compare|graph")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate|compare|report|graph")
     _add_plan(commands)
     _add_validate(commands)
     _add_compare(commands)
+    _add_report(commands)
     _add_graph(commands)
     return parser.parse_args(arguments)
 
@@ -192,6 +193,19 @@ def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
         "again. Without it rows go to standard output",
     )
     parser.add_argument("--quiet", action="store_true", help="show no progress and no summary")
+
+
+def _add_report(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "report",
+        help="write a page about the results of a comparison",
+        description="Write one page of HTML about the results of 'statehtn compare': the paper's tables beside these, "
+        "the distributions of the plans' costs, the solvers against each other, coverage. It needs no network.",
+        epilog="Exit codes: 0 written, 2 usage, 30 input error, 74 cannot write.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("results", metavar="FILE.csv", help="the table of results; FILE.jsonl is expected beside it")
+    parser.add_argument("--output", metavar="FILE.html", required=True, help="the page")
 
 
 def _add_graph(commands: argparse._SubParsersAction[_Parser]) -> None:

@@ -44,6 +44,10 @@ def _run(options: argparse.Namespace) -> ExitCode:
             from statehtn.cli.graph_command import run_graph  # what it needs would slow down the others
 
             return run_graph(options)
+        case "report":
+            from statehtn.cli.report_command import run_report  # what it needs would slow down the others
+
+            return run_report(options)
         case _:
             from statehtn.cli.compare_command import run_compare  # what it needs would slow down the others
 
