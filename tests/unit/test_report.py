@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from statehtn.cli import main
@@ -99,6 +99,17 @@ def test_the_paper_beside_ours(vehicle: str) -> None:
     assert "Satellite" not in text(page)
 
 
+def test_what_is_not_proven_is_not_compared_with_the_paper(tmp_path: Path) -> None:
+    records = [invented("av", "p1", status="solved", lower_bound=1.0), invented("av", "p2")]
+    page = section(report(write(tmp_path / "r.csv", records)), "paper")
+    assert [text(cell) for cell in page.iter("td") if cell.get("class") == "unproven"] == ["-3.40", DASH, "-3.40", "1"]
+    assert [row[:4] for row in table(page, "Autonomous vehicles")[1:]] == [
+        ["P1", "RN", "-18.35", "-3.40"],
+        ["P2", "RN", "-25.41", "-3.40"],
+    ]
+    assert "agree with ours" not in text(page)
+
+
 def test_a_picture_of_what_attitude_means(vehicle: str) -> None:
     costs = section(vehicle, "costs")
     (figure,) = costs.iter("figure")
@@ -137,6 +148,9 @@ def test_ids_are_unique_and_every_reference_has_its_target(vehicle: str) -> None
     references |= {match for e in elements for v in e.attrib.values() for match in re.findall(r"url\(#([^)]+)\)", v)}
     assert references <= set(ids)
     assert len(references) > 10
+    for plot in (element for element in elements if element.get("class") == "plot"):
+        assert all(e.tag in ("text", "title") or not e.text for e in plot.iter())
+        assert not any(e.tail for e in plot.iter() if e is not plot)
 
 
 def test_nothing_is_fetched_and_two_reports_are_the_same(results: Path, vehicle: str) -> None:
@@ -243,6 +257,7 @@ NASTY = ["<script>alert(1)</script>", "a&b", "'\"><svg onload=x>", "$x_1^2$", "{
 NAMES = st.text(st.characters(codec="utf-8", exclude_characters="\n\r"), min_size=1, max_size=20)
 
 
+@settings(max_examples=25)  # each is a whole page
 @given(domain=NAMES, name=NAMES)
 def test_names_are_text(domain: str, name: str, tmp_path_factory: pytest.TempPathFactory) -> None:
     path = tmp_path_factory.mktemp("names") / "r.csv"

@@ -144,17 +144,17 @@ def order(settings: str) -> tuple[int, int, str]:
     )
 
 
-def agent_order(agent: Agent) -> tuple[float, str]:
+def agent_order(agent: Agent) -> tuple[float, str, float]:
     """Return what agents are sorted by: from the most averse over the neutral to the most seeking."""
     attitude, alpha = agent
     sign = {"averse": -1.0, "seeking": 1.0}.get(attitude, 0.0)
-    return sign * (alpha or 0.0), attitude
+    return sign * (alpha or 0.0), attitude, alpha or 0.0
 
 
 def agent_text(agent: Agent) -> str:
     """Return the name of an agent."""
     attitude, alpha = agent
-    return attitude if alpha is None else f"{attitude} {alpha:g}"
+    return attitude if alpha is None else f"{attitude} {alpha:.10g}"
 
 
 def _badness(status: str) -> int:

@@ -70,6 +70,8 @@ def _looks(agents: Sequence[Agent]) -> dict[Agent, Look]:
         for rank, agent in enumerate(own):
             dash = list(DASHES)[min(rank, len(DASHES) - 1)]
             looks[agent] = Look(f"{attitude}-{min(rank, SHADES - 1) + 1}", dash=dash)
+    others = [agent for agent in agents if agent not in looks and agent[0] != "neutral"]
+    looks |= {agent: Look(f"series-{index % 6 + 1}", dash="mixed") for index, agent in enumerate(others)}
     return {agent: looks.get(agent, Look("neutral")) for agent in agents}
 
 

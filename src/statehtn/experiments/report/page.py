@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,6 +21,7 @@ FOLDER = Path(__file__).parent
 SERIES = 6
 """So many colours there are for series."""
 LEAST_SECONDS = 1e-4
+MOST_LISTED = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,5 +140,7 @@ def _limits_text(seconds: float | None, megabytes: float | None) -> str:
     return f"{time}, {'no memory limit' if megabytes is None else f'{megabytes:g} MB'}"
 
 
-def _listed(names: Any) -> str:
-    return ", ".join(dict.fromkeys(filter(None, names))) or "not recorded"
+def _listed(names: Iterable[str]) -> str:
+    known = list(dict.fromkeys(filter(None, names)))
+    more = [f"{len(known) - MOST_LISTED} more"] if len(known) > MOST_LISTED else []
+    return ", ".join([*known[:MOST_LISTED], *more]) or "not recorded"

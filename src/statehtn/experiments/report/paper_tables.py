@@ -53,7 +53,7 @@ PAPER_TABLES = (
         "#P",
         frozenset({"P2", "P3", "P4", "P5"}),
         "The paper gives the sizes of P2 to P5 but not their maps. Ours are other maps of the same sizes: only times "
-        "and sizes compare. P1 is that of the paper.",
+        "and sizes compare. P1 is that of the paper, where for RN plans of 8 and of 9 actions tie.",
     ),
     PaperTable(
         "satellite_results",
@@ -74,7 +74,7 @@ class Comparison:
         paper: the paper's table.
         table: both, side by side.
         rows: the paper's rows that the comparison has run.
-        compared: the printed numbers of the paper's own problems that there is a number of ours for, times left out.
+        compared: the printed numbers of the paper's own problems that a proven plan of ours is there for; no times.
         equal: those of them that ours is, to the last printed digit.
     """
 
@@ -105,8 +105,7 @@ def agrees(value: object, printed: str) -> bool:
 def compare_with_paper(cases: Sequence[Case], settings: Sequence[str]) -> list[Comparison]:
     """Return the paper's tables beside the rows of a comparison; those of which it has none are left out.
 
-    Our numbers are those of the best plan that any settings have found. Only A* by the planner's two solvers gets a
-    column of times, whatever its heuristic.
+    Our numbers are those of the best plan that any settings have found; each settings have a column of times.
     """
     found = []
     questions = by_question(cases)
@@ -141,7 +140,7 @@ def _comparison(
         times = {case.settings: _planning_time(case) for case in group}
         table_rows.append(
             [
-                Cell(printed["instance"]),
+                Cell(printed["instance"], also=_attitude(printed)),
                 Cell(_attitude(printed)),
                 *(cell for theirs, ours, _ in pairs for cell in (theirs, ours)),
                 Cell(printed["planning_seconds_printed"]),
@@ -173,11 +172,12 @@ def _pairs(printed: PrintedRow, outcome: Outcome | None, *, is_the_same: bool) -
         (f"-{printed['expected_cost_printed']}", _decimal(outcome and outcome.expected_cost, negative=True)),
         (printed["length"], _decimal(outcome and outcome.length)),
     )
+    is_proven = outcome is not None and outcome.status == Status.OPTIMAL
     pairs = []
     for theirs, ours in values:
-        verdict = agrees(ours, theirs) if is_the_same and theirs and ours is not None else None
+        verdict = agrees(ours, theirs) if is_the_same and is_proven and theirs and ours is not None else None
         cell = Cell(NOTHING if ours is None or not theirs else typeset(_like(ours, theirs)))
-        if outcome is not None and outcome.status != Status.OPTIMAL:
+        if not is_proven and ours is not None:
             cell = Cell(cell.text, mark="unproven", tip="not proven optimal")
         elif verdict is False:
             cell = Cell(cell.text, mark="differs", tip=f"the paper prints {theirs}")

@@ -95,7 +95,7 @@ def scatter(name: str, label: str, axes_labels: tuple[str, str], groups: Sequenc
                 zorder=3,
             )
             tips[f"points-{index}"] = [point.tip for point in points]
-        axes.set(xscale="log", yscale="log", xlim=(low, end), ylim=(low, end), aspect="equal")
+        axes.set(xscale="log", yscale="log", xlim=(low, end), ylim=(low, end))
         axes.set(xlabel=axes_labels[0], ylabel=axes_labels[1])
         for axis in (axes.xaxis, axes.yaxis):
             ticks = _logarithmic(axis, low, high)

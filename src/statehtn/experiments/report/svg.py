@@ -74,7 +74,8 @@ def inline_svg(figure: Figure, name: str, label: str, tips: Mapping[str, Sequenc
     root = ElementTree.fromstring(buffer.getvalue())
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]  # inside HTML the namespace is known
-        element.text = element.tail = (element.text or "").strip() if element.tag == "text" else None
+        element.text = element.text if element.tag == "text" else None
+        element.tail = None
     root.attrib = {"class": "plot", "viewBox": root.attrib["viewBox"], "role": "img", "aria-label": label}
     _drop(root, {"metadata", "style"})
     for gid, texts in (tips or {}).items():

@@ -28,13 +28,23 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A cell: what it shows, what it is sorted by if that is another thing, a mark, its reason, a share for a bar."""
+    """A cell of a table.
+
+    Args:
+        text: what it shows.
+        key: what it is sorted by, if that is another thing.
+        mark: a class of the page's style.
+        tip: why it is marked.
+        share: the length of a bar below it, from 0 to 1.
+        also: of a row's heading: what else tells rows apart, for narrow screens, which hide the cell with it.
+    """
 
     text: str
     key: float | None = None
     mark: str = ""
     tip: str = ""
     share: float | None = None
+    also: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +110,7 @@ def _solved(cases: Sequence[Case]) -> Cell:
 
 def effort(cases: Sequence[Case], settings: Sequence[str]) -> Table:
     """Return what has come of the problems under each settings, and what it took."""
-    labels = ("asked", "optimal", "solved", "no plan", "limit", "error")
+    labels = ("asked", "optimal", "solved, not proven", "no plan", "limit", "error")
     columns = [
         Column("settings", is_text=True),
         *(Column(label) for label in labels),
@@ -142,7 +152,8 @@ def all_cases(cases: Sequence[Case]) -> Table:
     ]
     rows = [
         [
-            *(Cell(text) for text in (case.problem, case.domain)),
+            Cell(case.problem, also=f"{agent_text(case.agent)}, {case.settings}"),
+            Cell(case.domain),
             Cell(agent_text(case.agent), agent_order(case.agent)[0]),
             *(Cell(text) for text in (case.settings, case.status)),
             number(case.best.risk_cost),
