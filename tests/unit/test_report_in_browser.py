@@ -19,6 +19,7 @@ playwright = pytest.importorskip("playwright.sync_api", reason="the browser is d
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 FLAGS = ["--no-sandbox", "--disable-background-networking"]
+PATIENCE = 120_000  # milliseconds: a machine that is busy with other things is no mistake of the page
 DESKTOP = {"width": 1280, "height": 900}
 PHONE = {"width": 390, "height": 844}
 LONG_NAME = "a-domain/with-a-name-as-long-as-those-of-the-competition-and-no-place-to-break-it-2020-total-order"
@@ -29,7 +30,7 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium (
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS, timeout=PATIENCE)
         yield browser
         browser.close()
 
@@ -52,7 +53,9 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> str:
 @pytest.fixture
 def page(browser: Any, url: str, request: pytest.FixtureRequest) -> Iterator[Any]:
     """The report, opened without a network; what it asked for and complained of is kept in `page.heard`."""
-    context = browser.new_context(viewport=getattr(request, "param", DESKTOP), offline=True)
+    viewport = getattr(request, "param", DESKTOP)
+    context = browser.new_context(viewport=viewport, offline=True, reduced_motion="reduce")
+    context.set_default_timeout(PATIENCE)
     page = context.new_page()
     page.heard = []
     page.on("console", lambda message: page.heard.append(message.text))
