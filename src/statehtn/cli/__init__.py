@@ -1,4 +1,4 @@
-"""The command line: `statehtn plan`, `statehtn validate` and `statehtn compare`."""
+"""The command line: `statehtn plan`, `statehtn top`, `statehtn validate`, `statehtn compare` and `statehtn graph`."""
 
 from statehtn.cli.program import main
 
