@@ -27,6 +27,8 @@ TOP_HEURISTICS = tuple(name for name, info in HEURISTICS.items() if info.admissi
 """The heuristics that a search for the best plans can take."""
 DEFAULT_TOP_HEURISTIC = "lmcut"
 MOST_PLANS = 1_000_000_000
+SECONDS_TO_VALIDATE = 2.0
+"""So long after the time limit plans are still validated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +77,9 @@ def top_plans(
 ) -> TopPlans:
     """Find the k plans with the highest expected utility, and prove that they are.
 
-    Plans are different if their actions are; how they were decomposed makes no difference. Where there are fewer than k,
-    all are returned. A limit that was reached and a Ctrl-C are values of the result's `status`, not exceptions: what was
-    found by then is there, and `proven` says how much of it is proven.
+    Plans are different if their actions are; how they were decomposed makes no difference. Where there are fewer than
+    k, all are returned. A limit that was reached and a Ctrl-C are values of the result's `status`, not exceptions: what
+    was found by then is there, and `proven` says how much of it is proven.
 
     Args:
         problem: a problem, such as `read_hddl` returns.
@@ -87,7 +89,8 @@ def top_plans(
         distinct: `sequence`: plans differ if their sequences of actions do; `multiset`: plans with the same actions in
             another order are one, the cheapest of them.
         heuristic: the name of an admissible heuristic in `HEURISTICS`; `lmcut` where none is given.
-        time_limit: seconds, for grounding and search together.
+        time_limit: seconds, for grounding and search together. Every plan is validated after the search; two seconds
+            after the limit those that are not yet are left out.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
         progress: is called some ten times a second during the search.
 
@@ -165,7 +168,7 @@ def _solve(
         dead_ends=outcome.dead_ends,
         search_seconds=time.perf_counter() - start,
     )
-    priced, stopped = _price(problem, query.utility, outcome)
+    priced, stopped = _price(problem, query.utility, outcome, limits)
     plans = tuple(_ranked(priced, outcome.proven, query.utility))
     if stopped is not None:
         status = Status.SOLVED if plans else stopped
@@ -183,8 +186,10 @@ def _solve(
 _Priced = tuple[Plan, tuple[PricedStep, ...]]
 
 
-def _price(problem: Problem, utility: Utility, outcome: TopOutcome) -> tuple[list[_Priced], Status | None]:
-    """Validate and price the plans that were found, and say what ended that, or the search before.
+def _price(
+    problem: Problem, utility: Utility, outcome: TopOutcome, limits: Limits
+) -> tuple[list[_Priced], Status | None]:
+    """Validate and price the plans that were found, at least one, and say what ended that, or the search before.
 
     Raises:
         InternalError: a plan is wrong.
@@ -192,7 +197,9 @@ def _price(problem: Problem, utility: Utility, outcome: TopOutcome) -> tuple[lis
     priced: list[_Priced] = []
     try:
         for plan in outcome.plans:
-            priced.append((plan, priced_steps(problem, plan, utility)))  # noqa: PERF401 (it may end in the middle)
+            if priced and limits.deadline is not None and time.monotonic() > limits.deadline + SECONDS_TO_VALIDATE:
+                return priced, Status.TIME_LIMIT
+            priced.append((plan, priced_steps(problem, plan, utility)))
     except (MemoryError, KeyboardInterrupt) as ending:
         return priced, status_of(ending)
     return priced, outcome.stopped
@@ -216,10 +223,8 @@ def _ranked(priced: Sequence[_Priced], proven: int, utility: Utility) -> Iterato
 
 def _bound(outcome: TopOutcome, plans: Sequence[RankedPlan]) -> float | None:
     """Return what every plan costs that is not among these; at most as much as the last one, rounding aside."""
-    if len(plans) == len(outcome.plans):
-        return (
-            outcome.lower_bound
-            if not plans or outcome.lower_bound is None
-            else min(outcome.lower_bound, plans[-1].risk_cost)
-        )
-    return plans[-1].risk_cost if plans else None
+    if not plans:
+        return None if outcome.plans else outcome.lower_bound
+    if len(plans) < len(outcome.plans):
+        return plans[-1].risk_cost
+    return None if outcome.lower_bound is None else min(outcome.lower_bound, plans[-1].risk_cost)

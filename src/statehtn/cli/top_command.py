@@ -49,7 +49,7 @@ def run_top(options: argparse.Namespace) -> ExitCode:
     except KeyboardInterrupt:  # between two phases
         result = no_plans(query, Status.INTERRUPTED, Statistics())
     failure = None
-    if options.output is not None and problem is not None:
+    if options.output is not None and problem is not None and result.plans:
         try:
             _write(result, problem, Path(options.output))
         except OutputError as error:

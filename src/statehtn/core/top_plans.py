@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import overload
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import STOPPED, Grounding
@@ -42,6 +43,26 @@ class TopProgress:
     proven: int
 
 
+class TracedPlans(Sequence[Plan]):
+    """Plans that the core has found, each read when it is asked for: that takes longer than finding it."""
+
+    def __init__(self, grounding: Grounding, results: Sequence[_relax.SearchResult]) -> None:
+        self.grounding = grounding
+        self.results = results
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    @overload
+    def __getitem__(self, index: int) -> Plan: ...
+    @overload
+    def __getitem__(self, index: slice) -> TracedPlans: ...
+    def __getitem__(self, index: int | slice) -> Plan | TracedPlans:
+        if isinstance(index, slice):
+            return TracedPlans(self.grounding, self.results[index])
+        return read_trace(self.grounding, self.results[index])
+
+
 @dataclass(frozen=True, slots=True)
 class TopOutcome:
     """How a search for several plans ended.
@@ -55,7 +76,7 @@ class TopOutcome:
     """
 
     stopped: Status | None
-    plans: tuple[Plan, ...]
+    plans: Sequence[Plan]
     proven: int
     is_all: bool
     lower_bound: float | None
@@ -133,7 +154,7 @@ def find_top_plans(
     statistics = result.statistics
     return TopOutcome(
         None if result.stop is None else STOPPED[result.stop],
-        tuple(read_trace(grounding, plan) for plan in result.plans),
+        TracedPlans(grounding, result.plans),
         statistics.proven,
         result.is_all,
         cost(statistics.lower_bound),
