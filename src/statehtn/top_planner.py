@@ -28,7 +28,7 @@ TOP_HEURISTICS = tuple(name for name, info in HEURISTICS.items() if info.admissi
 DEFAULT_TOP_HEURISTIC = "lmcut"
 MOST_PLANS = 1_000_000_000
 SECONDS_TO_VALIDATE = 2.0
-"""So long after the time limit plans are still validated."""
+"""So long after the time limit, or after what ended the search before, plans are still validated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,8 +89,8 @@ def top_plans(
         distinct: `sequence`: plans differ if their sequences of actions do; `multiset`: plans with the same actions in
             another order are one, the cheapest of them.
         heuristic: the name of an admissible heuristic in `HEURISTICS`; `lmcut` where none is given.
-        time_limit: seconds, for grounding and search together. Every plan is validated after the search; two seconds
-            after the limit those that are not yet are left out.
+        time_limit: seconds, for grounding and search together. Every plan is validated after the search; those that
+            are not two seconds after the limit, or after an interruption, are left out.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
         progress: is called some ten times a second during the search.
 
@@ -195,10 +195,11 @@ def _price(
         InternalError: a plan is wrong.
     """
     priced: list[_Priced] = []
+    deadline = limits.deadline if outcome.stopped is None else time.monotonic()
     try:
         for plan in outcome.plans:
-            if priced and limits.deadline is not None and time.monotonic() > limits.deadline + SECONDS_TO_VALIDATE:
-                return priced, Status.TIME_LIMIT
+            if priced and deadline is not None and time.monotonic() > deadline + SECONDS_TO_VALIDATE:
+                return priced, outcome.stopped or Status.TIME_LIMIT
             priced.append((plan, priced_steps(problem, plan, utility)))
     except (MemoryError, KeyboardInterrupt) as ending:
         return priced, status_of(ending)
