@@ -1,4 +1,4 @@
-"""The command line: `statehtn plan`, `statehtn top`, `statehtn validate`, `statehtn compare` and `statehtn graph`."""
+"""The command line: `statehtn plan`, `top`, `validate`, `compare`, `report` and `graph`."""
 
 from statehtn.cli.program import main
 
