@@ -8,7 +8,8 @@ import pytest
 
 import statehtn
 from statehtn import RankedPlan, Status, TopPlans
-from tests.regression.paper_tables import actions, agrees, problem, rows
+from statehtn.experiments.report.paper_tables import agrees
+from tests.regression.paper_tables import actions, problem, rows
 from tests.regression.test_av_tables import plan_key
 from tests.regression.test_satellite_tables import SMALLEST
 

@@ -140,8 +140,9 @@ def _values_table(result: TopPlans) -> Table:
 
 def _actions_table(result: TopPlans) -> Table:
     frame, parts = compact_actions(result.plans)
-    rows = [("all", frame)] if frame else []
-    return _summary([*rows, *((str(rank), part) for rank, part in enumerate(parts, 1))], "dim" if frame else "")
+    shared = [("all", frame)] if frame else []
+    own = [(str(rank), part) for rank, part in enumerate(parts, 1)]
+    return _summary([*shared, *own, ("", "")], "dim" if frame else "")
 
 
 def _top_rows(result: TopPlans) -> list[tuple[str, str]]:
@@ -156,10 +157,10 @@ def _top_rows(result: TopPlans) -> list[tuple[str, str]]:
         rows = [("status", "optimal: no other plan has a higher expected utility" + _up_to_order(result))]
         gap = result.plans[-1].risk_cost - (result.lower_bound or 0)
         return [*rows, ("proven", f"to within {gap:.1g} of the certainty equivalents (rounding)")] if gap > 0 else rows
-    rows = [("status", f"{TOP_STOPS[result.stopped]}: there may be better plans")]
+    rows = [("status", f"{TOP_STOPS[result.stopped]} before {result.k} plans were found and proven to be the best")]
     if result.proven:
-        first = "the first plan is" if result.proven == 1 else f"the first {result.proven} plans are"
-        rows.append(("proven", f"{first} the best"))
+        which = "these are" if result.proven == len(result) else f"the first {result.proven} are"
+        rows.append(("proven", f"{which} the best"))
     if result.lower_bound is not None:
         rows.append(("proven", f"no other plan {others}"))
     return rows
