@@ -59,7 +59,7 @@ void Progression::expand(StateId state, NetworkId network, std::vector<Successor
         return;
     }
     for (const Occurrence& occurrence : unconstrained_) {
-        if (costs_[occurrence.task] == 0 && transition_.has_no_effect(occurrence.task) &&
+        if (costs_[occurrence.task] == 0 && transition_.has_no_effect(occurrence.task) && may_hurry(occurrence.task) &&
             transition_.is_applicable(occurrence.task, states_[state])) {
             successors.push_back(execute(state, network, occurrence));
             return;

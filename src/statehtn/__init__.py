@@ -12,6 +12,7 @@ from __future__ import annotations
 from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
+from statehtn.core.top_plans import TopProgress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.hddl.plan_format import read_plan, write_plan
@@ -22,6 +23,8 @@ from statehtn.query import SOLVERS
 from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
 from statehtn.tabulate import tabulate_costs
+from statehtn.top_planner import top_plans
+from statehtn.top_result import RankedPlan, TopPlans
 from statehtn.validate import Validation, validate
 
 __all__ = [
@@ -41,10 +44,13 @@ __all__ = [
     "Problem",
     "ProblemBuilder",
     "Progress",
+    "RankedPlan",
     "Result",
     "StateHtnError",
     "Status",
     "Step",
+    "TopPlans",
+    "TopProgress",
     "UnsupportedError",
     "UsageError",
     "Utility",
@@ -59,6 +65,7 @@ __all__ = [
     "read_hddl_text",
     "read_plan",
     "tabulate_costs",
+    "top_plans",
     "utility_for",
     "validate",
     "when",

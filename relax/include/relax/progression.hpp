@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "relax/ground_problem.hpp"
@@ -46,12 +47,16 @@ public:
     NetworkId initial_network() { return networks_->initial(); }
     // Replace the content of `successors` by the node's successors.
     void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
+    // Of the actions that cost and change nothing, execute at once only those that are named (by ActionId) from now on:
+    // for searches to which the order of the others makes a difference.
+    void hurry_only(std::vector<bool> actions) { hurried_ = std::move(actions); }
 
     const StateRegistry& states() const { return states_; }
     TaskNetworks& networks() { return *networks_; }
 
 private:
     std::optional<Occurrence> compound_to_decompose() const;
+    bool may_hurry(ActionId action) const { return hurried_.empty() || hurried_[action]; }
     Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
 
     const GroundProblem& problem_;
@@ -62,6 +67,7 @@ private:
     // By MethodId: an action that comes before all other subtasks; empty if dead methods are not to be skipped.
     std::vector<std::optional<ActionId>> first_action_;
     std::optional<StubbornSet> stubborn_set_;
+    std::vector<bool> hurried_;  // by ActionId; empty for all
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
     StateBits next_;

@@ -9,10 +9,12 @@ from typing import Any, NoReturn
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.search import SEARCHES
+from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.query import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
+from statehtn.top_planner import DEFAULT_TOP_HEURISTIC, TOP_HEURISTICS
 
 PLAN_EPILOG = """heuristics:
   auto       A* with tdg, potential and lmcut in turn, which share what they prove
@@ -21,6 +23,12 @@ PLAN_EPILOG = """heuristics:
 exit codes:
   0 plan found    10 proven unsolvable    20 time limit      30 input error             130 interrupted
   2 usage         12 search exhausted     21 memory limit    31 unsupported feature
+"""
+
+TOP_EPILOG = """exit codes:
+  0 plans found   10 proven unsolvable    21 memory limit    31 unsupported feature
+  2 usage         20 time limit           30 input error     130 interrupted
+What was found before a limit is printed, with exit code 0; the output says how much of it is proven.
 """
 
 COMPARE_EPILOG = """suites:
@@ -68,8 +76,9 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     """
     parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate|compare|report|graph")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|top|validate|compare|report|graph")
     _add_plan(commands)
+    _add_top(commands)
     _add_validate(commands)
     _add_compare(commands)
     _add_report(commands)
@@ -114,13 +123,49 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         choices=list(BRANCHES),
         help="of the solver plan: decompose the task of a network with the fewest methods (default), or every one",
     )
-    search.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
-    search.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    _add_limits(search)
     output = parser.add_argument_group("output")
     output.add_argument("--output", metavar="FILE", help="write the plan with its decomposition (IPC 2020 format)")
     form = output.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print the result as one JSON object")
     form.add_argument("--quiet", action="store_true", help="print the plan's actions only, one per line")
+
+
+def _add_top(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "top",
+        help="find the K best plans",
+        description="Find the K plans with the highest expected utility for an agent's attitude to risk, and prove it. "
+        "Where there are fewer, all are printed.",
+        epilog=TOP_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("k", type=_count, metavar="K", help="how many plans")
+    _add_inputs(parser)
+    _add_agent(parser)
+    search = parser.add_argument_group("the search")
+    search.add_argument(
+        "--distinct",
+        choices=list(DISTINCT),
+        default="sequence",
+        help="plans differ in the sequence of their actions (default), or plans with the same actions in another order "
+        "are one",
+    )
+    search.add_argument("--heuristic", choices=TOP_HEURISTICS, help=f"default: {DEFAULT_TOP_HEURISTIC}")
+    _add_limits(search)
+    output = parser.add_argument_group("output")
+    output.add_argument(
+        "--output", metavar="DIR", help="write each plan with its decomposition (IPC 2020 format) into this folder"
+    )
+    form = output.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    form.add_argument("--quiet", action="store_true", help="print the plans' actions only, one plan per line")
+
+
+def _add_limits(group: argparse._ArgumentGroup) -> None:
+    group.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
+    group.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
 
 
 def _add_agent(parser: argparse.ArgumentParser) -> None:

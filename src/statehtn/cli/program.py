@@ -38,6 +38,10 @@ def _run(options: argparse.Namespace) -> ExitCode:
     match options.command:
         case "plan":
             return run_plan(options)
+        case "top":
+            from statehtn.cli.top_command import run_top  # what it needs would slow down the others
+
+            return run_top(options)
         case "validate":
             return run_validate(options)
         case "graph":

@@ -16,11 +16,12 @@ from statehtn.model.costs import Arithmetic, Expression, FunctionTerm
 from statehtn.model.problem import Action
 from statehtn.model.status import Status
 
-_STATUSES = {
+STOPPED = {
     _relax.StopReason.TimeLimit: Status.TIME_LIMIT,
     _relax.StopReason.MemoryLimit: Status.MEMORY_LIMIT,
     _relax.StopReason.Interrupted: Status.INTERRUPTED,
 }
+"""The status of a run that the core ended for a reason."""
 
 
 @dataclass(frozen=True)
@@ -168,7 +169,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
     )
     if isinstance(handle, _relax.StopReason):
-        raise LimitReached(_STATUSES[handle])
+        raise LimitReached(STOPPED[handle])
     if isinstance(handle, tuple):
         action, arguments = handle
         name = " ".join((encoding.action_names[action], *(encoding.objects[number] for number in arguments)))

@@ -66,6 +66,8 @@ SEARCHES: Mapping[str, tuple[Stage, ...]] = MappingProxyType(
     }
 )
 
+TOO_DEAR = "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
+
 _STATUSES = {
     _relax.SearchStatus.Optimal: Status.OPTIMAL,
     _relax.SearchStatus.Solved: Status.SOLVED,
@@ -203,9 +205,7 @@ class StagedRun:
                 None if self.progress is None else self.report,
             )
         except OverflowError:
-            raise UnsupportedError(
-                "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
-            ) from None
+            raise UnsupportedError(TOO_DEAR) from None
         self.done.append(result.statistics)
         self.lower_bound = self.bound_with(result.statistics)
         self.status = _STATUSES[result.status]
