@@ -192,4 +192,4 @@ def _with_plan(result: Result, problem: Problem, found: Plan) -> Result:
         PricedStep(step, law, law.mean, result.utility.risk_cost(law))
         for step, law in zip(found.steps, validation.costs, strict=True)
     )
-    return replace(result, plan=found, steps=steps)
+    return replace(result, plan=found.with_costs(validation.costs), steps=steps)

@@ -23,6 +23,7 @@ from statehtn.model import (
     Atom,
     CostBlock,
     CostDistribution,
+    CostLaw,
     Effect,
     Expression,
     Forall,
@@ -33,6 +34,7 @@ from statehtn.model import (
 )
 from statehtn.model.costs import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, exact
 from statehtn.model.formula import Combinable
+from statehtn.model.scipy_cost import is_of_scipy, law_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +62,11 @@ class Quantified:
 
 EffectPart = Combinable | When | Quantified
 """Atoms that become true, negated ones that become false, conjunctions of both; under `when` and `forall`."""
-CostPart = Amount | CostDistribution | Computable | Chance | Callable[..., Any] | When | Quantified
-"""A number, a distribution, an expression, `chance(...)` or a Python callable; also under `when` and `forall`."""
+CostPart = Amount | CostLaw | Computable | Chance | Callable[..., Any] | When | Quantified
+"""A number, a law, an expression, `chance(...)` or a Python callable; also under `when` and `forall`.
+
+A frozen distribution of `scipy.stats` is taken as its law.
+"""
 
 
 def when(condition: Combinable, *parts: EffectPart | CostPart) -> When:
@@ -145,7 +150,11 @@ def costs_of(
         if _is_external(part):
             found.append(CostBlock((), condition, bound, external(action, parameters, part)))
             continue
-        branches = _branches(part)
+        law = law_of(part) if is_of_scipy(part) else part
+        if isinstance(law, CostLaw) and not isinstance(law, CostDistribution):
+            found.append(CostBlock((), condition, bound, law=law))
+            continue
+        branches = _branches(law)
         for branch in branches:
             for expression in branch:
                 declared.check_expression(expression, inner)
@@ -187,7 +196,7 @@ def _listed(parts: object) -> Sequence[object]:
 
 
 def _is_external(part: object) -> TypeGuard[ExternalCost]:
-    return callable(part) and not isinstance(part, CostDistribution)
+    return callable(part) and not isinstance(part, CostLaw) and not is_of_scipy(part)
 
 
 def _branches(part: object) -> tuple[tuple[Expression, Expression], ...]:

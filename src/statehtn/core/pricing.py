@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from statehtn.model import CostDistribution
+from statehtn.model import CostLaw
 from statehtn.risk import Utility
 
 COST_BITS = 40
@@ -29,7 +29,7 @@ class Prices:
         return math.ldexp(units, -self.exponent)
 
 
-def price(laws: Iterable[CostDistribution], utility: Utility) -> Prices:
+def price(laws: Iterable[CostLaw], utility: Utility) -> Prices:
     """Price actions by their risk cost (line 6 of the paper's Algorithm 5, in the additive form of its equation 10).
 
     Args:
