@@ -119,7 +119,7 @@ def exponential_mean(law: ScipyCost, slope: float) -> tuple[float, float]:
     value, error = _closed_form(law, slope) or _integrated(law, slope)
     if math.isinf(value):
         raise InputError(
-            f"{law}: E[e^(alpha C)] is infinite for alpha = {slope:g}, so that no certain cost is as bad to a "
+            f"{law}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is as bad to a "
             f"risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated law, samples)"
         )
     value = min(max(value, law.mean), law.most) if slope > 0 else min(max(value, law.least), law.mean)

@@ -29,7 +29,11 @@ LEVELS = (1e-12, 1e-6, 1e-3, 0.05, 0.3, 0.7, 0.95, 0.999, 1 - 1e-6, 1 - 1e-12)
 NEGLIGIBLE = 80.0  # pieces whose integrand is smaller by e^80 do not count
 STEP = 20.0  # the logarithm of the integrand changes by no more within a piece
 ROUNDS = 200
+RATIO = 4.0  # of the ends of a piece in the tail
+LOG_TOLERANCE = math.log(1e-12)
 ROUNDING = 1e-12  # relative, of densities and sums
+HALVINGS = 45  # of a piece in which the density jumps or bends
+HEAVY_POWER, LIGHT_POWER = 0.9, 1.05  # of x, in the exponent of a density: clearly below and above 1
 LEAST_LOGARITHM = -800.0  # a density that is given as a logarithm goes below that; the logarithm of a float does not
 
 
@@ -78,12 +82,19 @@ def has_infinite_moment(law: ScipyCost, slope: float) -> bool:
         density = law.frozen.logpdf(far)
     known = numpy.isfinite(density)
     last = int(numpy.flatnonzero(known)[-1]) if known.any() else 0
-    if last < len(far) - 1 and density[last] > LEAST_LOGARITHM and not numpy.min(density[known]) < LEAST_LOGARITHM:
-        raise InputError(
-            f"{law}: its density is not known far enough to tell whether E[e^(alpha C)] is finite for alpha = "
-            f"{slope:g}; truncate it, or give outcomes or samples"
-        )
-    return bool(slope * far[last] + density[last] + math.log(far[last]) > 0)
+    rises = bool(slope * far[last] + density[last] + math.log(far[last]) > 0)
+    if last == len(far) - 1 or density[last] < LEAST_LOGARITHM:
+        return rises
+    # The density has fallen below the smallest float: like e^(-x^power), as far as it is known.
+    power = math.log2(density[last] / density[last - 1]) if last > 0 and density[last - 1] < 0 else 0.0
+    if power > LIGHT_POWER:
+        return False
+    if power < HEAVY_POWER and rises:
+        return True
+    raise InputError(
+        f"{law}: its density is not known far enough to tell whether E[e^(alpha C)] is finite for alpha = {slope:g}; "
+        f"truncate it, or give outcomes or samples"
+    )
 
 
 def _log_density(law: ScipyCost, above: NDArray[float64]) -> NDArray[float64]:
@@ -97,9 +108,20 @@ def _log_integral(law: ScipyCost, function: Logarithm) -> tuple[float, float]:
     """
     with numpy.errstate(all="ignore"):
         edges = _edges(law, function)
-        found = tanhsinh(function, edges[:-1], edges[1:], log=True, rtol=math.log(1e-12))
-        value = logsumexp(found.integral.real)
-        error = logsumexp(found.error.real)
+        starts, ends = edges[:-1], edges[1:]
+        values, errors = numpy.empty(0), numpy.empty(0)
+        for halving in range(HALVINGS + 1):
+            found = tanhsinh(function, starts, ends, log=True, rtol=LOG_TOLERANCE)
+            size = logsumexp(numpy.concatenate([values, found.integral.real]))
+            is_rough = (found.error.real > size + LOG_TOLERANCE) & (halving < HALVINGS)
+            values = numpy.concatenate([values, found.integral.real[~is_rough]])
+            errors = numpy.concatenate([errors, found.error.real[~is_rough]])
+            if not is_rough.any():
+                break
+            middles = (starts + ends)[is_rough] / 2
+            starts = numpy.concatenate([starts[is_rough], middles])
+            ends = numpy.concatenate([middles, ends[is_rough]])
+        value, error = logsumexp(values), logsumexp(errors)
     return float(value), ROUNDING + float(math.exp(min(error - value, 0.0)))
 
 
@@ -113,6 +135,7 @@ def _edges(law: ScipyCost, function: Logarithm) -> NDArray[float64]:
         while function(numpy.array([2 * end]))[0] > function(numpy.array([end]))[0] - NEGLIGIBLE and end < 1e300:
             end *= 2
         end *= 2
+    inner += [inner[-1] * RATIO**power for power in range(1, math.ceil(math.log(end / inner[-1], RATIO)))]
     edges = numpy.unique([0.0, *(point for point in inner if 0 < point < end), end])
     for _ in range(ROUNDS):
         middles = (edges[:-1] + edges[1:]) / 2
@@ -125,4 +148,9 @@ def _edges(law: ScipyCost, function: Logarithm) -> NDArray[float64]:
         if not split.any():
             break
         edges = numpy.unique(numpy.concatenate([edges, middles[split]]))
+    if numpy.isneginf(right[-1]) and math.isinf(law.most):  # the density of a far cost is no float any more
+        sizes = function(edges)
+        finite = sizes[numpy.isfinite(sizes)]
+        if finite[-1] > finite.max() - NEGLIGIBLE / 2:
+            raise InputError(f"{law}: its density is not known as far as its certainty equivalent needs it")
     return edges

@@ -101,7 +101,9 @@ class ScipyCost(CostLaw):
         if self.is_discrete:
             import numpy
 
-            last = self.frozen.isf(LEAST_TAIL)
+            last = max(budget, self.least) + 1
+            while self.frozen.sf(last) > LEAST_TAIL:
+                last = self.least + 2 * (last - self.least)
             beyond = self.least + numpy.arange(max(0.0, math.floor(budget - self.least) + 1), last - self.least + 1)
             return float(numpy.sum((beyond - budget) * self.frozen.pmf(beyond)))
         return excess(self, budget)
