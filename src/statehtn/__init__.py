@@ -9,13 +9,13 @@ print(result)
 
 from __future__ import annotations
 
-from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
+from statehtn.build import CostTable, ProblemBuilder, chance, equal, exists, forall, read_costs, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.hddl.plan_format import read_plan, write_plan
-from statehtn.model import CostDistribution, Decomposition, Plan, Problem, Step
+from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
 from statehtn.planner import plan
 from statehtn.query import SOLVERS
@@ -30,6 +30,8 @@ __all__ = [
     "SOLVERS",
     "Attitude",
     "CostDistribution",
+    "CostLaw",
+    "CostTable",
     "Decomposition",
     "Exponential",
     "HddlWarning",
@@ -55,6 +57,7 @@ __all__ = [
     "exists",
     "forall",
     "plan",
+    "read_costs",
     "read_hddl",
     "read_hddl_text",
     "read_plan",

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
+from statehtn.build import read_costs
 from statehtn.core.grounding import Grounding, ground
 from statehtn.core.plan_based import search_plans
 from statehtn.core.search import Progress, SearchOutcome, find_plans
@@ -62,7 +63,8 @@ def plan(
 
     Raises:
         UsageError: an argument is out of its range.
-        InputError: the cost of a reachable action is undefined, negative or no distribution.
+        InputError: the cost of a reachable action is undefined, negative or no distribution, or has no finite price
+            for this agent (a heavy tail, for an averse one).
         UnsupportedError: the problem asks for something that the planner does not do.
     """
     query = Query.of(attitude, alpha, solver, heuristic, search, weight, branch)
@@ -76,19 +78,23 @@ def plan_files(
     query: Query,
     *,
     strict: bool = False,
+    costs: str | os.PathLike[str] | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
 ) -> tuple[Result, Problem | None]:
     """Read a problem from HDDL files and plan; the limits hold for the reading, too.
 
-    Returns the result, and the problem where it was read to its end. The other arguments and what it raises: see `plan`
+    `costs` is a file with costs for the domain's actions (`read_costs`). Returns the result, and the problem where it
+    was read to its end. The other arguments and what it raises: see `plan`
     and `read_hddl`.
     """
     limits = Limits.starting_now(time_limit, memory_limit)
     start = time.perf_counter()
     try:
         read = read_hddl(domain, problem, strict=strict, limits=limits)
+        if costs is not None:
+            read = read_costs(costs).apply(read)
     except ENDINGS as ending:
         statistics = Statistics(parse_seconds=time.perf_counter() - start)
         return no_plan(query, status_of(ending), statistics), None

@@ -4,6 +4,7 @@
 """
 
 from statehtn.build.builder import ProblemBuilder
+from statehtn.build.cost_file import CostEntry, CostTable, read_costs
 from statehtn.build.declared import NumericFunction, Predicate, Task, Type
 from statehtn.build.external import ExternalFunction
 from statehtn.build.networks import Occurrence
@@ -13,7 +14,9 @@ from statehtn.build.with_cost import with_cost
 
 __all__ = [
     "Chance",
+    "CostEntry",
     "CostPart",
+    "CostTable",
     "EffectPart",
     "ExternalFunction",
     "NumericFunction",
@@ -30,6 +33,7 @@ __all__ = [
     "equal",
     "exists",
     "forall",
+    "read_costs",
     "when",
     "with_cost",
 ]

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
@@ -22,7 +22,6 @@ from statehtn.model import (
     And,
     Atom,
     CostBlock,
-    CostDistribution,
     CostLaw,
     Effect,
     Expression,
@@ -32,7 +31,7 @@ from statehtn.model import (
     Number,
     Parameter,
 )
-from statehtn.model.costs import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, exact
+from statehtn.model.costs import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, block_of, exact
 from statehtn.model.formula import Combinable
 from statehtn.model.scipy_cost import is_of_scipy, law_of
 
@@ -151,10 +150,10 @@ def costs_of(
             found.append(CostBlock((), condition, bound, external(action, parameters, part)))
             continue
         law = law_of(part) if is_of_scipy(part) else part
-        if isinstance(law, CostLaw) and not isinstance(law, CostDistribution):
-            found.append(CostBlock((), condition, bound, law=law))
+        if isinstance(law, CostLaw):
+            found.append(replace(block_of(law), condition=condition, parameters=bound))
             continue
-        branches = _branches(law)
+        branches = _branches(part)
         for branch in branches:
             for expression in branch:
                 declared.check_expression(expression, inner)
@@ -202,8 +201,6 @@ def _is_external(part: object) -> TypeGuard[ExternalCost]:
 def _branches(part: object) -> tuple[tuple[Expression, Expression], ...]:
     if isinstance(part, Chance):
         return part.branches
-    if isinstance(part, CostDistribution):
-        return tuple((Number(exact(probability)), Number(exact(cost))) for probability, cost in part.outcomes)
     if isinstance(part, Computable | Real | Decimal) and not isinstance(part, bool):
         return ((Number(Fraction(1)), _expression(part, "a cost")),)
     raise UsageError(

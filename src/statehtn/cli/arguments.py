@@ -236,4 +236,5 @@ def _count(text: str) -> int:
 def _add_inputs(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("domain", metavar="DOMAIN", help="HDDL file of the domain")
     parser.add_argument("problem", metavar="PROBLEM", help="HDDL file of the problem")
+    parser.add_argument("--costs", metavar="FILE", help="TOML or JSON file with other costs of actions (docs/costs.md)")
     parser.add_argument("--strict", action="store_true", help="treat warnings about the input as errors")

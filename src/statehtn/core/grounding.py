@@ -112,6 +112,11 @@ class Grounding:
         names = self.encoding.action_names
         return names[schema] if schema < len(names) else self.encoding.tasks[schema - len(names)]
 
+    def action_text(self, action: int) -> str:
+        """Return a ground action as it stands in a plan."""
+        names = (self.task_name(self.handle.action_schema[action]), *self.objects(self.handle.action_arguments(action)))
+        return f"({' '.join(names)})"
+
     def _action(self, action: int, schema: int) -> GroundAction:
         handle = self.handle
         return GroundAction(

@@ -128,5 +128,13 @@ class CostBlock:
     law: CostLaw | None = None
 
 
+
+def block_of(law: CostLaw) -> CostBlock:
+    """Return a law as a cost that is always due: by its outcomes where it is a list of them."""
+    if not isinstance(law, CostDistribution):
+        return CostBlock((), law=law)
+    return CostBlock(tuple((Number(exact(probability)), Number(exact(cost))) for probability, cost in law.outcomes))
+
+
 FunctionValues = Mapping[tuple[str, ...], Fraction]
 """Values of functions in the initial state; the key is (function, *arguments)."""
