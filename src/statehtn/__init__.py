@@ -9,6 +9,7 @@ print(result)
 
 from __future__ import annotations
 
+from statehtn.attitudes import AttitudeComparison, compare_attitudes
 from statehtn.build import CostTable, ProblemBuilder, chance, equal, exists, forall, read_costs, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
@@ -29,6 +30,7 @@ __all__ = [
     "SEARCHES",
     "SOLVERS",
     "Attitude",
+    "AttitudeComparison",
     "CostDistribution",
     "CostLaw",
     "CostTable",
@@ -53,6 +55,7 @@ __all__ = [
     "Validation",
     "__version__",
     "chance",
+    "compare_attitudes",
     "equal",
     "exists",
     "forall",

@@ -215,4 +215,3 @@ def checked_outcomes(outcomes: Iterable[tuple[float, float]]) -> tuple[tuple[flo
     if abs(total - 1) > PROBABILITY_TOLERANCE:
         raise InputError(f"the probabilities of a cost must sum to 1, found {total:.12g}")
     return tuple((merged[cost], float(cost)) for cost in sorted(merged))
-

@@ -128,7 +128,6 @@ class CostBlock:
     law: CostLaw | None = None
 
 
-
 def block_of(law: CostLaw) -> CostBlock:
     """Return a law as a cost that is always due: by its outcomes where it is a list of them."""
     if not isinstance(law, CostDistribution):

@@ -9,9 +9,7 @@ LARGEST_EXPONENT = 700.0  # below it, exp and expm1 of a float do not overflow
 LEAST_CURVATURE = 1e-17  # a smaller slope * (range of the cost) changes no digit of the mean
 
 
-def exponential_mean_of(
-    probabilities: Sequence[float], costs: Sequence[float], mean: float, slope: float
-) -> float:
+def exponential_mean_of(probabilities: Sequence[float], costs: Sequence[float], mean: float, slope: float) -> float:
     """Return `ln(sum p e^(slope c) / sum p) / slope`, which is at least the mean for a positive slope.
 
     Args:

@@ -9,6 +9,7 @@ Distributions*, and Johnson, Kemp and Kotz, *Univariate Discrete Distributions*.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from types import MappingProxyType
@@ -119,8 +120,8 @@ def exponential_mean(law: ScipyCost, slope: float) -> tuple[float, float]:
     value, error = _closed_form(law, slope) or _integrated(law, slope)
     if math.isinf(value):
         raise InputError(
-            f"{law}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is as bad to a "
-            f"risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated law, samples)"
+            f"{law}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is as bad "
+            f"to a risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated law, samples)"
         )
     value = min(max(value, law.mean), law.most) if slope > 0 else min(max(value, law.least), law.mean)
     if not error <= ACCURACY * max(value, abs(value - law.least)):
@@ -143,7 +144,9 @@ def _closed_form(law: ScipyCost, slope: float) -> tuple[float, float] | None:
 def _integrated(law: ScipyCost, slope: float) -> tuple[float, float]:
     from statehtn.model.quadrature import has_infinite_moment, log_moment
 
-    if slope > 0 and has_infinite_moment(law, slope):
-        return math.inf, 0.0
-    value, error = log_moment(law, slope)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # of scipy, about single points; the error counts them in
+        if slope > 0 and has_infinite_moment(law, slope):
+            return math.inf, 0.0
+        value, error = log_moment(law, slope)
     return law.least + value / slope, error / abs(slope)

@@ -190,4 +190,5 @@ def _rounded_masses(law: CostLaw, width: float) -> tuple[NDArray[float64], float
     above = table[:, 1] - law.least
     cells = numpy.rint(above / width).astype(int)
     moved = above - cells * width
-    return numpy.bincount(cells, weights=table[:, 0]), float(moved.min()), float(moved.max())
+    masses = numpy.asarray(numpy.bincount(cells, weights=table[:, 0]), dtype=float)
+    return masses, float(moved.min()), float(moved.max())
