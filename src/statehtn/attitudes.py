@@ -155,7 +155,9 @@ class AttitudeComparison:
         """Say for each agent why it does not do what its neighbours do."""
         last = len(self.results) - 1
         pairs = [(agent, other) for agent in range(last + 1) for other in (agent - 1, agent + 1) if 0 <= other <= last]
-        return [self._reason(agent, other, parts) for agent, other in pairs if (parts := self.differences(agent, other))]
+        return [
+            self._reason(agent, other, parts) for agent, other in pairs if (parts := self.differences(agent, other))
+        ]
 
     def _reason(self, agent: int, other: int, parts: Sequence[Difference]) -> Reason:
         mine, its = self.results[agent], self.results[other]

@@ -213,7 +213,9 @@ def test_sums_with_continuous_costs_agree_with_simulation() -> None:
     worst = numpy.sort(drawn)[int(0.95 * runs) :]
     assert law.cvar(0.95) == pytest.approx(worst.mean(), rel=0.01)
     slope = 0.2
-    assert law.exponential_mean(slope) == pytest.approx(CostDistribution(law.outcomes).exponential_mean(slope), abs=0.02)
+    assert law.exponential_mean(slope) == pytest.approx(
+        CostDistribution(law.outcomes).exponential_mean(slope), abs=0.02
+    )
     parts = [part.exponential_mean(slope) for part in [*PARTS, PARTS[1]]]
     assert law.exponential_mean(slope) == pytest.approx(sum(parts), rel=1e-14)
 
@@ -226,7 +228,9 @@ def test_one_law_among_free_actions_is_itself() -> None:
 
 def test_long_plans_go_to_the_grid_and_stay_near() -> None:
     generator = numpy.random.default_rng(5)
-    plan = [CostDistribution.of([(0.5, float(low)), (0.5, float(low + more))]) for low, more in generator.random((60, 2))]
+    plan = [
+        CostDistribution.of([(0.5, float(low)), (0.5, float(low + more))]) for low, more in generator.random((60, 2))
+    ]
     law = total_cost(plan)
     assert isinstance(law, TotalCost)
     spread = sum(step.most - step.least for step in plan)

@@ -14,7 +14,7 @@ import statehtn
 from statehtn.cli import main
 from statehtn.core.grounding import ground
 from statehtn.model import CostDistribution
-from tests.pages import ROOT
+from tests.pages import ROOT, blocks
 
 AV = tuple(str(ROOT / "domains" / "av" / name) for name in ("domain.hddl", "p1.hddl"))
 
@@ -108,7 +108,7 @@ def test_the_first_entry_that_fits_counts(tmp_path: Path, walk: statehtn.Problem
     assert found["y", "z"] == "0 w.p. 0.5, 2 w.p. 0.5"
     assert found["x", "z"] == "1"  # what has no entry keeps its cost, which is 1 in a domain without costs
     assert costs(problem, "rise") == {(): "1"}
-    with pytest.warns(statehtn.HddlWarning, match="'x' is an object of the problem"):
+    with pytest.warns(statehtn.HddlWarning, match="is an object of the problem"):
         again = statehtn.read_hddl_text(*statehtn.write_hddl(problem))
     assert costs(again, "step") == found
 
@@ -127,7 +127,9 @@ def test_own_costs_stay_where_no_entry_fits(tmp_path: Path, vehicle: statehtn.Pr
 @settings(max_examples=25, deadline=None)
 @given(
     st.lists(
-        st.tuples(st.sampled_from("xyz*"), st.sampled_from("xyz*"), st.integers(0, 9)), max_size=6, unique_by=lambda e: e[:2]
+        st.tuples(st.sampled_from("xyz*"), st.sampled_from("xyz*"), st.integers(0, 9)),
+        max_size=6,
+        unique_by=lambda e: e[:2],
     )
 )
 def test_entries_are_read_from_top_to_bottom(entries: list[tuple[str, str, int]]) -> None:
@@ -201,6 +203,12 @@ def test_wrong_files(tmp_path: Path, vehicle: statehtn.Problem, text: str, messa
     with pytest.raises(statehtn.InputError, match=message) as error:
         statehtn.read_costs(file).apply(vehicle)
     assert str(error.value).startswith(str(file))
+
+
+def test_the_page_shows_the_example() -> None:
+    page = (ROOT / "docs" / "costs.md").read_text(encoding="utf-8")
+    (shown,) = (block.text for block in blocks(page) if block.language == "toml")
+    assert shown == (ROOT / "examples" / "av-costs.toml").read_text(encoding="utf-8")
 
 
 def test_files_that_are_none(tmp_path: Path) -> None:

@@ -46,5 +46,5 @@ def plot_law(
     ax.axvline(worst[1], color=TAIL, linewidth=1, linestyle=":", label=f"mean of the worst 5% {worst[1]:.4g}")
     ax.set(xlabel="cost", ylabel="probability of paying no more", xlim=(left, right), ylim=(0, 1.02))
     ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(loc="lower right", frameon=False)
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=3, frameon=False, fontsize="small")
     return ax

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 PROBABILITY_TOLERANCE = 1e-9
 ROUNDING = 1e-12  # of sums of probabilities, which are compared with a level that was asked for
-MOST_SHOWN = 12
+MOST_SHOWN = 5  # longer lists are summed up
 
 
 @dataclass(frozen=True, slots=True)

@@ -120,8 +120,9 @@ def exponential_mean(law: ScipyCost, slope: float) -> tuple[float, float]:
     value, error = _closed_form(law, slope) or _integrated(law, slope)
     if math.isinf(value):
         raise InputError(
-            f"{law}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is as bad "
-            f"to a risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated law, samples)"
+            f"{law}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is as "
+            f"bad to a risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated law, "
+            f"samples)"
         )
     value = min(max(value, law.mean), law.most) if slope > 0 else min(max(value, law.least), law.mean)
     if not error <= ACCURACY * max(value, abs(value - law.least)):
