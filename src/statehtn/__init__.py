@@ -9,7 +9,8 @@ print(result)
 
 from __future__ import annotations
 
-from statehtn.attitudes import AttitudeComparison, compare_attitudes
+from typing import TYPE_CHECKING, Any
+
 from statehtn.build import CostTable, ProblemBuilder, chance, equal, exists, forall, read_costs, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
@@ -24,6 +25,9 @@ from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
 from statehtn.tabulate import tabulate_costs
 from statehtn.validate import Validation, validate
+
+if TYPE_CHECKING:
+    from statehtn.attitudes import AttitudeComparison, compare_attitudes
 
 __all__ = [
     "HEURISTICS",
@@ -74,10 +78,14 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> str:
+def __getattr__(name: str) -> Any:
+    """Look up what few need, and what takes its time, when it is asked for."""
+    if name in ("AttitudeComparison", "compare_attitudes"):
+        from statehtn import attitudes
+
+        return getattr(attitudes, name)
     if name != "__version__":
         raise AttributeError(f"module 'statehtn' has no attribute '{name}'")
-    # Looked up when it is asked for: that takes as long as the rest of the import.
     from importlib.metadata import PackageNotFoundError, version
 
     try:

@@ -27,7 +27,7 @@ def read_tables(file: Path) -> Mapping[str, Any]:
         raise InputError(f"cannot read '{file}': {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise InputError(f"{file}: this is no {kind}: byte {error.start} is not UTF-8") from None
-    except (tomllib.TOMLDecodeError, json.JSONDecodeError) as error:
+    except ValueError as error:  # of either reader, or a number with thousands of digits
         raise InputError(f"{file}: this is no {kind}: {error}") from None
     except RecursionError:
         raise InputError(f"{file}: this is nested too deeply") from None

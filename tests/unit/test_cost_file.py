@@ -172,6 +172,8 @@ WRONG = [
     ('[[costs]]\naction = "brake"\ncost = "x"', "'cost': expected a number, found 'x'"),
     ('[[costs]]\naction = "brake"\ncost = true', "'cost': expected a number, found True"),
     ('[[costs]]\naction = "brake"\ncost = -1', "'cost': a cost must be a finite number and at least 0, found -1"),
+    ('[[costs]]\naction = "brake"\ncost = ' + "9" * 400, "'cost': a number of 400 digits is too large"),
+    ('[[costs]]\naction = "brake"\ncost = ' + "9" * 9000, "this is no TOML: Exceeds the limit"),
     ('[[costs]]\naction = "brake"\ncost = nan', "'cost': a cost must be a finite number"),
     ('[[costs]]\naction = "brake"\noutcomes = [1]', r"'outcomes': expected a list of pairs \[probability, cost\]"),
     ('[[costs]]\naction = "brake"\noutcomes = []', r"'outcomes': expected a list of pairs"),

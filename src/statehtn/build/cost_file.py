@@ -254,7 +254,10 @@ LAWS: Mapping[str, tuple[Callable[[KeyedTable, Path], CostLaw], tuple[str, ...]]
 def _number(table: KeyedTable, key: str, value: Any) -> float:
     if not isinstance(value, int | float) or isinstance(value, bool):
         table.complain(key, "a number" if key != "parameters" else "numbers", value)
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise InputError(f"{table.place}: '{key}': a number of {len(str(value))} digits is too large") from None
 
 
 def _pairs(table: KeyedTable, key: str, what: str) -> list[tuple[float, float]]:

@@ -25,7 +25,7 @@ MOST_PAIRS = 4_000_000
 """... and not more pairs of outcomes are added up on the way."""
 CELLS = 2**16
 """Of the grid that is taken beyond."""
-TAIL = 1e-13
+TAIL = 1e-10
 """The probability at the upper end of an unbounded cost that the grid leaves out."""
 NOISE = 1e-16  # what a fast Fourier transform leaves where there is nothing
 
