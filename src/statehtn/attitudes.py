@@ -123,10 +123,10 @@ class AttitudeComparison:
         }
 
     def __str__(self) -> str:
-        return comparison_text(self._plans(), self._texts(), self._reasons())
+        return comparison_text(self._plans(), *self._columns(), self._reasons())
 
     def _repr_html_(self) -> str:
-        return comparison_html(self._plans(), self._texts(), self._reasons())
+        return comparison_html(self._plans(), *self._columns(), self._reasons())
 
     def _price(self, steps: Sequence[PricedStep], agent: Result) -> float:
         return plan_risk_cost((priced.law for priced in steps), agent.utility)
@@ -144,12 +144,20 @@ class AttitudeComparison:
             for agent, result, prices in zip(self.agents, self.results, self.risk_costs, strict=True)
         ]
 
-    def _texts(self) -> list[tuple[bool, list[str]]]:
-        """Return the rows as text, and whether all plans are the same there."""
-        return [
-            (len(set(_tokens(row))) == 1, ["" if priced is None else str(priced.step) for priced in row])
-            for row in self.rows
-        ]
+    def _columns(self) -> tuple[list[str], list[tuple[bool, list[str]]]]:
+        """Return a head for each plan that differs from the others, and the rows as text, with whether all plans are the same there."""
+        groups: dict[tuple[object, ...], list[int]] = {}
+        for index, result in enumerate(self.results):
+            if result:
+                groups.setdefault(tuple(_tokens(result.steps)), []).append(index)
+        heads = [", ".join(self.agents[index] for index in group) for group in groups.values()]
+        shown = [group[0] for group in groups.values()]
+        rows = []
+        for row in self.rows:
+            cells = [row[index] for index in shown]
+            texts = ["" if priced is None else str(priced.step) for priced in cells]
+            rows.append((len(set(_tokens(cells))) == 1, texts))
+        return heads, rows
 
     def _reasons(self) -> list[Reason]:
         """Say for each agent why it does not do what its neighbours do."""

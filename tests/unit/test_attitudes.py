@@ -71,6 +71,14 @@ def test_it_prints_where_plans_part(comparison: AttitudeComparison) -> None:
     assert "instead of (decelerate l4 e)" in html
 
 
+def test_equal_plans_stand_in_one_column() -> None:
+    problem = statehtn.read_hddl(ROOT / "domains" / "av" / "domain.hddl", ROOT / "domains" / "av" / "p3.hddl")
+    text = str(statehtn.compare_attitudes(problem, [0.1, 0.9], attitudes=["averse", "neutral"]))
+    assert text.splitlines()[0].split(maxsplit=0)[0].strip() == "averse 0.9, averse 0.1, neutral"
+    assert "|" not in text
+    assert "instead" not in text
+
+
 def test_it_is_json(comparison: AttitudeComparison) -> None:
     found = json.loads(json.dumps(comparison.to_dict(), allow_nan=False))
     assert found["agents"][1] == {"attitude": "neutral", "alpha": None}
@@ -114,7 +122,7 @@ def test_rows_hold_every_plan_in_its_order(plans: list[list[PricedStep]]) -> Non
 def test_long_stretches_are_shortened() -> None:
     plans = [ComparedPlan("a", "optimal", 1, 1, 1, [1, 1]), ComparedPlan("b", "solved", 1, 1, math.inf, [1, 1])]
     rows = [(True, [f"({number})"] * 2) for number in range(10)] + [(False, ["(x)", ""])]
-    lines = comparison_text(plans, rows, []).splitlines()
+    lines = comparison_text(plans, ["a", "b"], rows, []).splitlines()
     assert [line.split() for line in lines[2:10]] == [
         *([f"({number})"] * 2 for number in range(3)),
         ["...", "4", "more", "that", "all", "share"],

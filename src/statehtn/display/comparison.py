@@ -59,25 +59,32 @@ class Reason:
 
 
 def comparison_text(
-    plans: Sequence[ComparedPlan], rows: Sequence[tuple[bool, Sequence[str]]], reasons: Sequence[Reason]
+    plans: Sequence[ComparedPlan],
+    heads: Sequence[str],
+    rows: Sequence[tuple[bool, Sequence[str]]],
+    reasons: Sequence[Reason],
 ) -> str:
     """Return the plans side by side, a table of their costs to every agent, and the reasons, in lines.
 
     Args:
         plans: one for each agent.
-        rows: whether all plans are the same in the row, and a cell for each plan.
+        heads: the agents of each plan that differs from the others.
+        rows: whether all these plans are the same in the row, and a cell for each.
     """
-    blocks = [_side_by_side(plans, rows).to_text()] if rows else []
+    blocks = [_side_by_side(heads, rows).to_text()] if rows else []
     blocks.append("\n".join((_costs(plans).to_text(), *NOTES)))
     blocks += ["\n".join(_reason_lines(reason)) for reason in reasons]
     return "\n\n".join(blocks)
 
 
 def comparison_html(
-    plans: Sequence[ComparedPlan], rows: Sequence[tuple[bool, Sequence[str]]], reasons: Sequence[Reason]
+    plans: Sequence[ComparedPlan],
+    heads: Sequence[str],
+    rows: Sequence[tuple[bool, Sequence[str]]],
+    reasons: Sequence[Reason],
 ) -> str:
     """Return what `comparison_text` does as HTML for a notebook, with the reasons folded."""
-    parts = [_side_by_side(plans, rows).to_html()] if rows else []
+    parts = [_side_by_side(heads, rows).to_html()] if rows else []
     parts += [_costs(plans).to_html(), *(f"<div>{escape(note)}</div>" for note in NOTES)]
     if reasons:
         text = escape("\n\n".join("\n".join(_reason_lines(reason)) for reason in reasons))
@@ -85,9 +92,9 @@ def comparison_html(
     return f"<div>{''.join(parts)}</div>"
 
 
-def _side_by_side(plans: Sequence[ComparedPlan], rows: Sequence[tuple[bool, Sequence[str]]]) -> Table:
-    columns = (Column(""), *(Column(plan.agent) for plan in plans))
-    return Table(columns, list(_shortened(rows, len(plans))))
+def _side_by_side(heads: Sequence[str], rows: Sequence[tuple[bool, Sequence[str]]]) -> Table:
+    columns = (Column(""), *(Column(head) for head in heads))
+    return Table(columns, list(_shortened(rows, len(heads))))
 
 
 def _shortened(rows: Sequence[tuple[bool, Sequence[str]]], width: int) -> Iterator[Sequence[str]]:
