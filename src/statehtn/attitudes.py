@@ -145,7 +145,7 @@ class AttitudeComparison:
         ]
 
     def _columns(self) -> tuple[list[str], list[tuple[bool, list[str]]]]:
-        """Return a head for each plan that differs from the others, and the rows as text, with whether all plans are the same there."""
+        """Return a head for each plan that differs from the others, and the rows: shared by all, and as text."""
         groups: dict[tuple[object, ...], list[int]] = {}
         for index, result in enumerate(self.results):
             if result:

@@ -112,7 +112,7 @@ def closed(draw: st.DrawFn) -> ScipyCost:
     return law
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(closed(), st.sampled_from([-1, 1]), st.floats(-5, 2).map(lambda exponent: 10.0**exponent))
 def test_integrals_are_what_closed_forms_say(law: ScipyCost, sign: int, size: float) -> None:
     slope = sign * size / law.standard_deviation

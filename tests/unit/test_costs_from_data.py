@@ -199,6 +199,19 @@ def test_a_problem_with_continuous_costs(vehicle: statehtn.Problem) -> None:
     assert (drawn > 22).mean() == pytest.approx(total.exceedance(22), abs=0.02)
 
 
+def test_laws_under_conditions(vehicle: statehtn.Problem) -> None:
+    slippery = "(and (slippery ?from ?to) (not (esp-active)))"
+    problem = statehtn.with_cost(vehicle, "accelerate", stats.uniform(5, 10), when=slippery)
+    law = CostDistribution.from_scipy(stats.uniform(5, 10))
+    plan = statehtn.plan(vehicle, attitude="seeking", alpha=0.9).plan
+    assert plan is not None
+    before, after = (statehtn.validate(p, plan).costs for p in (vehicle, problem))
+    changed = [step for step, old, new in zip(plan.steps, before, after, strict=True) if old != new]
+    assert [str(step) for step in changed] == ["(accelerate l4 e)"]
+    assert after[6] == law
+    assert statehtn.plan(problem).expected_cost == pytest.approx(18.35)
+
+
 def test_an_infinite_price_names_the_action(vehicle: statehtn.Problem) -> None:
     problem = statehtn.with_cost(vehicle, "brake", stats.lognorm(1))
     assert statehtn.plan(problem, attitude="seeking", alpha=1)

@@ -139,7 +139,8 @@ class CostDistribution(CostLaw):
         Raises:
             UsageError: the probability is not between 0 and 1.
         """
-        checked_probability(probability, "the probability of a quantile")
+        if checked_probability(probability, "the probability of a quantile") == 1:
+            return self.most
         reached = 0.0
         for weight, cost in self.outcomes:
             reached += weight

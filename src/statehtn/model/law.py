@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 PLOT_POINTS = 400
+MOST_DRAWN = 0.9995  # the rest of a long tail is left out
 
 
 class CostLaw(ABC):
@@ -108,7 +109,7 @@ class CostLaw(ABC):
 
     def _curve(self) -> tuple[list[float], list[float]]:
         """Return costs, and the probability of each or less, for a drawing in steps."""
-        low, high = self.quantile(0), min(self.most, self.quantile(0.9995))
+        low, high = self.quantile(0), min(self.most, self.quantile(MOST_DRAWN))
         costs = [low + (high - low) * point / PLOT_POINTS for point in range(PLOT_POINTS + 1)]
         return costs, [self.cdf(cost) for cost in costs]
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 Shapes = Mapping[str, float]
 ClosedForm = Callable[[Shapes, float], "float | None"]
-ACCURACY = 1e-7  # of an exponential mean, in units of itself, that is asked of a quadrature
+ACCURACY = 1e-9  # of an exponential mean, in units of itself, that is asked of a quadrature
 SERIES = 1e-3  # below it, the series of a uniform law is better than the formula
 
 

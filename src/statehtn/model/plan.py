@@ -93,8 +93,8 @@ class Plan:
         """Return the law of the plan's total cost: positive, in the domain's unit; the actions' are independent.
 
         It is a `CostDistribution`, exact, where the actions' costs are lists of outcomes and their sum has not more
-        than 20,000 different values; otherwise a `TotalCost` on a grid that knows its error. See
-        `statehtn.model.total_cost`.
+        than 20,000 different values; the action's own law where only one of them costs anything; otherwise a
+        `TotalCost` on a grid that knows its error. See `statehtn.model.total_cost`.
 
         Raises:
             UsageError: the plan does not know what its steps cost.

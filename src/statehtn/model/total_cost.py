@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from statehtn.errors import InputError
 from statehtn.model.cost_distribution import CostDistribution
 from statehtn.model.cost_sum import CostSum, parts_of
-from statehtn.model.law import CostLaw
+from statehtn.model.law import MOST_DRAWN, PLOT_POINTS, CostLaw
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -85,6 +85,12 @@ class TotalCost(CostDistribution):
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""
         return self.summands.sample(runs, generator)
+
+    def _curve(self) -> tuple[list[float], list[float]]:
+        costs, heights = CostDistribution._curve(self)
+        count = sum(height <= MOST_DRAWN for height in heights)
+        step = max(1, count // PLOT_POINTS)
+        return costs[:count:step], heights[:count:step]
 
     def __str__(self) -> str:
         return f"a mean of {self.mean:g}, from {self.least:g} to {self.most:g} (each cost to {self.cost_error:.2g})"
