@@ -4,7 +4,8 @@
 """
 
 from statehtn.build.builder import ProblemBuilder
-from statehtn.build.cost_file import CostEntry, CostTable, read_costs
+from statehtn.build.cost_file import read_costs
+from statehtn.build.cost_table import CostEntry, CostTable
 from statehtn.build.declared import NumericFunction, Predicate, Task, Type
 from statehtn.build.external import ExternalFunction
 from statehtn.build.networks import Occurrence
