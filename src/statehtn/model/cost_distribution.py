@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError
 from statehtn.model.exponential_mean import exponential_mean_of
-from statehtn.model.law import CostLaw, checked_probability
+from statehtn.model.law import PLOT_POINTS, CostLaw, checked_probability
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -187,12 +188,13 @@ class CostDistribution(CostLaw):
         """Return the distribution of the sum of two independent costs."""
         return CostDistribution.of((p * q, c + d) for p, c in self.outcomes for q, d in other.outcomes)
 
-    def _curve(self) -> tuple[list[float], list[float]]:
-        costs, heights = [self.least], [0.0]
-        for probability, cost in self.outcomes:
-            costs.append(cost)
-            heights.append(heights[-1] + probability)
-        return costs, heights
+    def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
+        """Return ascending costs, and the probability of each or less, for a drawing in at most so many steps."""
+        costs, heights = [cost for _, cost in self.outcomes], list(accumulate(p for p, _ in self.outcomes))
+        step = math.ceil(len(costs) / points)
+        last = len(costs) - 1
+        shown = sorted({*range(0, last, step), last})
+        return [costs[0], *(costs[index] for index in shown)], [0.0, *(heights[index] for index in shown)]
 
     def __str__(self) -> str:
         if len(self.outcomes) == 1:

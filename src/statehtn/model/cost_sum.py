@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from statehtn.model.law import CostLaw
+from statehtn.model.law import PLOT_POINTS, CostLaw
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -85,8 +85,9 @@ class CostSum(CostLaw):
         """Draw so many independent costs with a generator of numpy."""
         return sampled_sum(self.parts, runs, generator)
 
-    def _curve(self) -> tuple[list[float], list[float]]:
-        return self.total._curve()
+    def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
+        """Return ascending costs, and the probability of each or less, for a drawing."""
+        return self.total.curve(points)
 
     def __str__(self) -> str:
         return " + ".join(map(str, self.parts))

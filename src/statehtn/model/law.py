@@ -105,12 +105,15 @@ class CostLaw(ABC):
         """
         from statehtn.display.law_plot import plot_law
 
-        return plot_law(*self._curve(), mean=self.mean, worst=(self.quantile(0.95), self.cvar(0.95)), ax=ax)
+        return plot_law(*self.curve(), mean=self.mean, worst=(self.quantile(0.95), self.cvar(0.95)), ax=ax)
 
-    def _curve(self) -> tuple[list[float], list[float]]:
-        """Return costs, and the probability of each or less, for a drawing in steps."""
+    def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
+        """Return ascending costs, and the probability of each or less, for a drawing in about so many steps.
+
+        It begins with probability 0 where the least cost has one; of a long tail the end may be missing.
+        """
         low, high = self.quantile(0), min(self.most, self.quantile(MOST_DRAWN))
-        costs = [low + (high - low) * point / PLOT_POINTS for point in range(PLOT_POINTS + 1)]
+        costs = [low + (high - low) * point / points for point in range(points + 1)]
         return costs, [self.cdf(cost) for cost in costs]
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from itertools import accumulate
+from typing import TYPE_CHECKING, overload
 
 from statehtn.errors import InputError
 from statehtn.model.cost_distribution import CostDistribution
@@ -86,16 +88,19 @@ class TotalCost(CostDistribution):
         """Draw so many independent costs with a generator of numpy."""
         return self.summands.sample(runs, generator)
 
-    def _curve(self) -> tuple[list[float], list[float]]:
-        costs, heights = CostDistribution._curve(self)
-        count = sum(height <= MOST_DRAWN for height in heights)
-        step = max(1, count // PLOT_POINTS)
-        return costs[:count:step], heights[:count:step]
+    def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
+        """Return ascending costs, and the probability of each or less, for a drawing; its far end is left out."""
+        near = bisect_left(list(accumulate(probability for probability, _ in self.outcomes)), MOST_DRAWN)
+        return CostDistribution(self.outcomes[: near + 1]).curve(points)
 
     def __str__(self) -> str:
         return f"a mean of {self.mean:g}, from {self.least:g} to {self.most:g} (each cost to {self.cost_error:.2g})"
 
 
+@overload
+def total_cost(laws: Iterable[CostDistribution]) -> CostDistribution: ...
+@overload
+def total_cost(laws: Iterable[CostLaw]) -> CostLaw: ...
 def total_cost(laws: Iterable[CostLaw]) -> CostLaw:
     """Return the law of the sum of independent costs.
 
