@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from statehtn.build import CostTable, ProblemBuilder, chance, equal, exists, forall, read_costs, when, with_cost
+from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
@@ -28,6 +28,8 @@ from statehtn.validate import Validation, validate
 
 if TYPE_CHECKING:
     from statehtn.attitudes import AttitudeComparison, compare_attitudes
+    from statehtn.build.cost_file import read_costs
+    from statehtn.build.cost_table import CostTable
 
 __all__ = [
     "HEURISTICS",
@@ -77,13 +79,21 @@ __all__ = [
     "write_plan",
 ]
 
+_LATER = {
+    "AttitudeComparison": "statehtn.attitudes",
+    "CostTable": "statehtn.build.cost_table",
+    "compare_attitudes": "statehtn.attitudes",
+    "read_costs": "statehtn.build.cost_file",
+}
+"""Names that few need, and where they are."""
+
 
 def __getattr__(name: str) -> Any:
     """Look up what few need, and what takes its time, when it is asked for."""
-    if name in ("AttitudeComparison", "compare_attitudes"):
-        from statehtn import attitudes
+    if name in _LATER:
+        from importlib import import_module
 
-        return getattr(attitudes, name)
+        return getattr(import_module(_LATER[name]), name)
     if name != "__version__":
         raise AttributeError(f"module 'statehtn' has no attribute '{name}'")
     from importlib.metadata import PackageNotFoundError, version

@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from statehtn.build import read_costs
 from statehtn.core.grounding import Grounding, ground
 from statehtn.core.plan_based import search_plans
 from statehtn.core.search import Progress, SearchOutcome, find_plans
@@ -94,6 +93,8 @@ def plan_files(
     try:
         read = read_hddl(domain, problem, strict=strict, limits=limits)
         if costs is not None:
+            from statehtn.build.cost_file import read_costs  # few runs need it
+
             read = read_costs(costs).apply(read)
     except ENDINGS as ending:
         statistics = Statistics(parse_seconds=time.perf_counter() - start)

@@ -134,7 +134,7 @@ def test_own_costs_stay_where_no_entry_fits(tmp_path: Path, vehicle: statehtn.Pr
 )
 def test_entries_are_read_from_top_to_bottom(entries: list[tuple[str, str, int]]) -> None:
     """Random entries against the definition; those that could never count are refused."""
-    from statehtn.build import CostEntry, CostTable
+    from statehtn.build.cost_table import CostEntry, CostTable
 
     problem = statehtn.read_hddl_text(FREE, START)
     table = CostTable(

@@ -4,8 +4,6 @@
 """
 
 from statehtn.build.builder import ProblemBuilder
-from statehtn.build.cost_file import read_costs
-from statehtn.build.cost_table import CostEntry, CostTable
 from statehtn.build.declared import NumericFunction, Predicate, Task, Type
 from statehtn.build.external import ExternalFunction
 from statehtn.build.networks import Occurrence
@@ -15,9 +13,7 @@ from statehtn.build.with_cost import with_cost
 
 __all__ = [
     "Chance",
-    "CostEntry",
     "CostPart",
-    "CostTable",
     "EffectPart",
     "ExternalFunction",
     "NumericFunction",
@@ -34,7 +30,6 @@ __all__ = [
     "equal",
     "exists",
     "forall",
-    "read_costs",
     "when",
     "with_cost",
 ]

@@ -22,6 +22,7 @@ from statehtn.model import (
     And,
     Atom,
     CostBlock,
+    CostDistribution,
     CostLaw,
     Effect,
     Expression,
@@ -33,7 +34,7 @@ from statehtn.model import (
 )
 from statehtn.model.costs import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, block_of, exact
 from statehtn.model.formula import Combinable
-from statehtn.model.scipy_cost import is_of_scipy, law_of
+from statehtn.model.law import is_of_scipy
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +150,7 @@ def costs_of(
         if _is_external(part):
             found.append(CostBlock((), condition, bound, external(action, parameters, part)))
             continue
-        law = law_of(part) if is_of_scipy(part) else part
+        law = CostDistribution.from_scipy(part) if is_of_scipy(part) else part
         if isinstance(law, CostLaw):
             found.append(replace(block_of(law), condition=condition, parameters=bound))
             continue

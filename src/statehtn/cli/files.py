@@ -10,7 +10,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-from statehtn.build import read_costs
 from statehtn.errors import UsageError
 from statehtn.hddl import read_hddl
 from statehtn.model import Problem
@@ -23,7 +22,11 @@ def read_problem(options: argparse.Namespace) -> Problem:
         StateHtnError: a file is wrong.
     """
     problem = read_hddl(options.domain, options.problem, strict=options.strict)
-    return problem if options.costs is None else read_costs(options.costs).apply(problem)
+    if options.costs is None:
+        return problem
+    from statehtn.build.cost_file import read_costs  # few runs need it
+
+    return read_costs(options.costs).apply(problem)
 
 
 class OutputError(Exception):

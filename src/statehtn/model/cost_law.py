@@ -16,9 +16,8 @@ from statehtn.model.cost_distribution import PROBABILITY_TOLERANCE, CostDistribu
 from statehtn.model.cost_sum import CostSum
 from statehtn.model.costs import Arithmetic, CostBlock, Expression, FunctionTerm, FunctionValues, Number
 from statehtn.model.formula import TRUE
-from statehtn.model.law import CostLaw
+from statehtn.model.law import CostLaw, is_of_scipy
 from statehtn.model.problem import Action
-from statehtn.model.scipy_cost import is_of_scipy, law_of
 
 LARGEST_SHOWN = 10**300  # a float can hold it
 
@@ -174,7 +173,7 @@ def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) ->
     """Read what a callable returned. A float means the decimal that it prints as, so that equal costs stay equal."""
     if is_of_scipy(answer):
         try:
-            answer = law_of(answer)
+            answer = CostDistribution.from_scipy(answer)
         except StateHtnError as error:
             raise type(error)(f"the external cost of {_name(action, arguments)}: {error.message}") from None
     if isinstance(answer, CostLaw) and not isinstance(answer, CostDistribution):

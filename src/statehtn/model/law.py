@@ -126,3 +126,8 @@ def checked_probability(value: float, what: str) -> float:
     if not 0 <= value <= 1:
         raise UsageError(f"{what} must be between 0 and 1, found {value:g}")
     return value
+
+
+def is_of_scipy(value: object) -> bool:
+    """Tell whether something comes from `scipy.stats`, without importing it."""
+    return any(kind.__module__.startswith("scipy.stats") for kind in type(value).__mro__)

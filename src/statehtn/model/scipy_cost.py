@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.law import CostLaw, checked_probability
+from statehtn.model.law import CostLaw, checked_probability, is_of_scipy
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -155,11 +155,6 @@ class ScipyCost(CostLaw):
 
     def __str__(self) -> str:
         return f"{self.family}({', '.join(f'{name}={value:g}' for name, value in self.parameters)})"
-
-
-def is_of_scipy(value: object) -> bool:
-    """Tell whether something comes from `scipy.stats`, without importing it."""
-    return any(kind.__module__.startswith("scipy.stats") for kind in type(value).__mro__)
 
 
 def law_of(distribution: Any) -> CostLaw:
