@@ -62,7 +62,8 @@ def plan(
 
     Raises:
         UsageError: an argument is out of its range.
-        InputError: the cost of a reachable action is undefined, negative or no distribution.
+        InputError: the cost of a reachable action is undefined, negative or no distribution, or has no finite price
+            for this agent (a heavy tail, for an averse one).
         UnsupportedError: the problem asks for something that the planner does not do.
     """
     query = Query.of(attitude, alpha, solver, heuristic, search, weight, branch)
@@ -76,17 +77,19 @@ def plan_files(
     query: Query,
     *,
     strict: bool = False,
+    costs: str | os.PathLike[str] | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
 ) -> tuple[Result, Problem | None]:
     """Read a problem from HDDL files and plan; the limits hold for the reading, too.
 
-    Returns the result, and the problem where it was read to its end. The other arguments and what it raises: see `plan`
+    `costs` is a file with costs for the domain's actions (`read_costs`). Returns the result, and the problem where it
+    was read to its end. The other arguments and what it raises: see `plan`
     and `read_hddl`.
     """
     limits = Limits.starting_now(time_limit, memory_limit)
-    read, statistics = measured_read(domain, problem, strict, limits)
+    read, statistics = measured_read(domain, problem, strict, limits, costs)
     if isinstance(read, Status):
         return no_plan(query, read, statistics), None
     return _solve(read, query, limits, progress, statistics), read
@@ -121,13 +124,21 @@ def status_of(ending: BaseException) -> Status:
 
 
 def measured_read(
-    domain: str | os.PathLike[str], problem: str | os.PathLike[str], strict: bool, limits: Limits
+    domain: str | os.PathLike[str],
+    problem: str | os.PathLike[str],
+    strict: bool,
+    limits: Limits,
+    costs: str | os.PathLike[str] | None = None,
 ) -> tuple[Problem | Status, Statistics]:
-    """Read a problem and take the time; returns the status instead where something ended it."""
+    """Read a problem and a file with its costs, and take the time; returns the status where something ended it."""
     start = time.perf_counter()
     read: Problem | Status
     try:
         read = read_hddl(domain, problem, strict=strict, limits=limits)
+        if costs is not None:
+            from statehtn.build.cost_file import read_costs  # few runs need it
+
+            read = read_costs(costs).apply(read)
     except ENDINGS as ending:
         read = status_of(ending)
     return read, Statistics(parse_seconds=time.perf_counter() - start)
@@ -173,7 +184,8 @@ def _solve(
     result = no_plan(query, outcome.status, statistics, outcome.lower_bound)
     if outcome.plan is None:
         return result
-    return replace(result, plan=outcome.plan, steps=priced_steps(problem, outcome.plan, query.utility))
+    plan, steps = priced_plan(problem, outcome.plan, query.utility)
+    return replace(result, plan=plan, steps=steps)
 
 
 def _search(grounding: Grounding, query: Query, limits: Limits, progress: ProgressCallback | None) -> SearchOutcome:
@@ -198,7 +210,7 @@ def _search(grounding: Grounding, query: Query, limits: Limits, progress: Progre
     )
 
 
-def priced_steps(problem: Problem, found: Plan, utility: Utility) -> tuple[PricedStep, ...]:
+def priced_plan(problem: Problem, found: Plan, utility: Utility) -> tuple[Plan, tuple[PricedStep, ...]]:
     """Validate a plan independently of the search, and price its steps in the states they are executed in.
 
     Raises:
@@ -207,7 +219,8 @@ def priced_steps(problem: Problem, found: Plan, utility: Utility) -> tuple[Price
     validation = validate(problem, found)
     if not validation.valid:
         raise InternalError(f"the search returned a wrong plan: {'; '.join(validation.reasons)}")
-    return tuple(
+    steps = tuple(
         PricedStep(step, law, law.mean, utility.risk_cost(law))
         for step, law in zip(found.steps, validation.costs, strict=True)
     )
+    return found.with_costs(validation.costs), steps

@@ -16,7 +16,7 @@ from statehtn.limits import Limits
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.planner import ENDINGS, measured_ground, measured_read, priced_steps, status_of
+from statehtn.planner import ENDINGS, measured_ground, measured_read, priced_plan, status_of
 from statehtn.result import PricedStep
 from statehtn.risk import Attitude, Utility, problem_class, utility_for
 from statehtn.top_result import RankedPlan, TopPlans
@@ -110,17 +110,18 @@ def top_plans_files(
     query: TopQuery,
     *,
     strict: bool = False,
+    costs: str | os.PathLike[str] | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: TopProgressCallback | None = None,
 ) -> tuple[TopPlans, Problem | None]:
     """Read a problem from HDDL files and find its best plans; the limits hold for the reading, too.
 
-    Returns the result, and the problem where it was read to its end. The other arguments and what it raises: see
-    `top_plans` and `read_hddl`.
+    `costs` is a file with costs for the domain's actions (`read_costs`). Returns the result, and the problem where it
+    was read to its end. The other arguments and what it raises: see `top_plans` and `read_hddl`.
     """
     limits = Limits.starting_now(time_limit, memory_limit)
-    read, statistics = measured_read(domain, problem, strict, limits)
+    read, statistics = measured_read(domain, problem, strict, limits, costs)
     if isinstance(read, Status):
         return no_plans(query, read, statistics), None
     return _solve(read, query, limits, progress, statistics), read
@@ -200,7 +201,7 @@ def _price(
         for plan in outcome.plans:
             if priced and deadline is not None and time.monotonic() > deadline + SECONDS_TO_VALIDATE:
                 return priced, outcome.stopped or Status.TIME_LIMIT
-            priced.append((plan, priced_steps(problem, plan, utility)))
+            priced.append(priced_plan(problem, plan, utility))
     except (MemoryError, KeyboardInterrupt) as ending:
         return priced, status_of(ending)
     return priced, outcome.stopped

@@ -76,10 +76,13 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     """
     parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|top|validate|compare|report|graph")
+    commands = parser.add_subparsers(
+        dest="command", required=True, metavar="plan|top|validate|compare-attitudes|compare|report|graph"
+    )
     _add_plan(commands)
     _add_top(commands)
     _add_validate(commands)
+    _add_compare_attitudes(commands)
     _add_compare(commands)
     _add_report(commands)
     _add_graph(commands)
@@ -188,6 +191,31 @@ def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser.add_argument("plan", metavar="PLAN", help="plan file")
 
 
+def _add_compare_attitudes(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "compare-attitudes",
+        help="show the plans of several agents side by side",
+        description="Plan for risk-averse, neutral and seeking agents, and show where their plans part, what each plan "
+        "would cost the other agents, and why each agent does not do what its neighbour does.",
+        epilog="Exit codes: as of 'statehtn plan', of the first agent that has no plan; 0 if all have one.",
+        allow_abbrev=False,
+    )
+    _add_inputs(parser)
+    parser.add_argument(
+        "--alpha",
+        type=float,
+        nargs="+",
+        default=[1.0],
+        metavar="A",
+        help="how much the averse and the seeking agents care, per unit of cost; several for more agents; default: 1",
+    )
+    parser.add_argument("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of the search in 'statehtn plan'")
+    parser.add_argument("--search", choices=("astar", "anytime", "greedy"), default="astar", help="default: astar")
+    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds for each agent")
+    parser.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    parser.add_argument("--json", action="store_true", help="print the comparison as one JSON object")
+
+
 def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser = commands.add_parser(
         "compare",
@@ -281,4 +309,5 @@ def _count(text: str) -> int:
 def _add_inputs(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("domain", metavar="DOMAIN", help="HDDL file of the domain")
     parser.add_argument("problem", metavar="PROBLEM", help="HDDL file of the problem")
+    parser.add_argument("--costs", metavar="FILE", help="TOML or JSON file with other costs of actions (docs/costs.md)")
     parser.add_argument("--strict", action="store_true", help="treat warnings about the input as errors")

@@ -44,6 +44,10 @@ def _run(options: argparse.Namespace) -> ExitCode:
             return run_top(options)
         case "validate":
             return run_validate(options)
+        case "compare-attitudes":
+            from statehtn.cli.attitudes_command import run_compare_attitudes
+
+            return run_compare_attitudes(options)
         case "graph":
             from statehtn.cli.graph_command import run_graph  # what it needs would slow down the others
 

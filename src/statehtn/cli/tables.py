@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
@@ -15,7 +16,7 @@ from rich.text import Text
 
 from statehtn.display.top_plans import compact_actions
 from statehtn.effort import Statistics
-from statehtn.model.costs import CostDistribution
+from statehtn.model.law import CostLaw
 from statehtn.model.status import Status
 from statehtn.result import Result
 from statehtn.top_result import TopPlans
@@ -198,10 +199,12 @@ def _steps_table(result: Result) -> Table:
     return table
 
 
-def _range(laws: Sequence[CostDistribution]) -> str:
-    least = sum(law.outcomes[0][1] for law in laws)
-    largest = sum(law.outcomes[-1][1] for law in laws)
-    return number(least) if least == largest else f"{number(least)} to {number(largest)}"
+def _range(laws: Sequence[CostLaw]) -> str:
+    least = sum(law.least for law in laws)
+    most = sum(law.most for law in laws)
+    if math.isinf(most):
+        return f"at least {number(least)}"
+    return number(least) if least == most else f"{number(least)} to {number(most)}"
 
 
 def _summary_rows(result: Result) -> list[tuple[str, str]]:

@@ -148,7 +148,7 @@ def find_plans(
         UnsupportedError: the costs of a plan exceed the range of fixed point, some 10^6 times the largest cost of an
             action.
     """
-    run = StagedRun(grounding, price(grounding.laws, utility), limits, progress)
+    run = StagedRun(grounding, price(grounding.laws, utility, grounding.action_text), limits, progress)
     size = max(1, grounding.handle.action_count + grounding.handle.method_count)
     for stage in SEARCHES[search]:
         if stage.algorithm is _relax.SearchAlgorithm.Greedy and run.best is not None:

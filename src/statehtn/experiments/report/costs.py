@@ -9,8 +9,9 @@ from statehtn.experiments.report.cases import Case, Question, agent_order, agent
 from statehtn.experiments.report.plots import DASHES, Curve, Look, distributions
 from statehtn.experiments.report.results import Outcome
 from statehtn.experiments.report.tables import Cell, Column, Table, number
-from statehtn.experiments.report.total_cost import TotalCost, total_cost
 from statehtn.experiments.run import Agent
+from statehtn.model.cost_distribution import CostDistribution
+from statehtn.model.total_cost import TotalCost, total_cost
 
 SHADES = 3
 """So many colours there are for averse, and for seeking agents."""
@@ -80,7 +81,7 @@ def _picture(
     domain: str,
     problem: str,
     outcomes: Sequence[Outcome],
-    totals: Sequence[TotalCost],
+    totals: Sequence[CostDistribution],
     looks: dict[Agent, Look],
 ) -> Picture:
     groups: list[list[int]] = []  # the outcomes whose plans cost the same
@@ -110,19 +111,17 @@ def _picture(
         distributions(name, label, [Curve(totals[group[0]], drawn[group[0]]) for group in groups]),
         Table(f"{problem}: total cost of the plan for each agent", columns, rows),
         [drawn[index] for index in range(len(outcomes))],
-        all(total.is_exact for total in totals),
+        not any(isinstance(total, TotalCost) for total in totals),
     )
 
 
-def _is_same(left: TotalCost, right: TotalCost) -> bool:
+def _is_same(left: CostDistribution, right: CostDistribution) -> bool:
     import numpy as np
 
-    return left.costs.shape == right.costs.shape and bool(
-        np.allclose(left.costs, right.costs) and np.allclose(left.probabilities, right.probabilities)
-    )
+    return len(left.outcomes) == len(right.outcomes) and np.allclose(left.outcomes, right.outcomes)
 
 
-def _row(outcome: Outcome, total: TotalCost) -> list[Cell]:
+def _row(outcome: Outcome, total: CostDistribution) -> list[Cell]:
     values = (
         *(outcome.expected_cost, outcome.risk_cost),
         *(total.least, total.quantile(0.05), total.quantile(0.5), total.quantile(0.95), total.most),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from statehtn.experiments.report.svg import PLACEHOLDERS, STYLE, inline_svg
-from statehtn.experiments.report.total_cost import TotalCost
+from statehtn.model.law import CostLaw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,7 +56,7 @@ class Point:
 class Curve:
     """The distribution of a plan's total cost."""
 
-    total: TotalCost
+    total: CostLaw
     look: Look
 
 
@@ -139,11 +139,8 @@ def distributions(name: str, label: str, curves: Sequence[Curve]) -> str:
         right = max(curve.total.quantile(0.999) for curve in curves)
         margin = 0.06 * (right - left) or max(0.05 * right, 1.0)
         for curve in reversed(curves):
-            visible = curve.total.on_grid(STEPS)
-            reached = visible.probabilities.cumsum().tolist()
             axes.plot(
-                [visible.costs[0], *visible.costs],
-                [0.0, *reached],
+                *curve.total.curve(STEPS),
                 drawstyle="steps-post",
                 color=PLACEHOLDERS[curve.look.colour],
                 linewidth=2,

@@ -154,11 +154,18 @@ def _extra(record: dict[str, Any]) -> _Extra:
     plan, utility = result.get("plan"), result.get("expected_utility")
     return _Extra(
         None if utility is None else str(utility),
-        None if plan is None else tuple(CostDistribution.of((p, c) for p, c in step["outcomes"]) for step in plan),
+        _laws(plan),
         (record["run"]["time_limit"], record["run"]["memory_limit"]),
         printable(str(record.get("machine", ""))),
         printable(str(record.get("version", ""))),
     )
+
+
+def _laws(plan: list[dict[str, Any]] | None) -> tuple[CostDistribution, ...] | None:
+    """Return the laws of the costs of a plan's actions; None without a plan, or where one is no list of outcomes."""
+    if plan is None or any(step["outcomes"] is None for step in plan):
+        return None
+    return tuple(CostDistribution.of((p, c) for p, c in step["outcomes"]) for step in plan)
 
 
 def _outcome(row: Row, extra: _Extra, place: str) -> Outcome:
