@@ -130,19 +130,7 @@ def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 2000
         GaveUp: more than so many different nodes were generated, or a network has more than LARGEST_NETWORK tasks.
     """
     space, canonical = Space(problem), Canonical()
-    certain: dict[str, float] = {}
-
-    def due(pending: Pending) -> float:
-        """The part of a pending action's cost that is due in every state."""
-        if pending.label not in certain:
-            certain[pending.label] = 0.0
-            if isinstance(pending, Task) and pending.name in problem.domain.actions:
-                action = problem.domain.actions[pending.name]
-                if space.semantics.bind(action, pending.arguments) is not None:
-                    law = space.semantics.law(pending.name, pending.arguments, None)
-                    certain[pending.label] = utility.risk_cost(law)
-        return certain[pending.label]
-
+    due = Due(space, utility)
     generated = itertools.count()
     queue: list[tuple[float, int, int, float, Node]] = []
     cheapest: dict[object, float] = {}
@@ -168,11 +156,69 @@ def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 2000
     return None
 
 
-def all_plans(problem: Problem, most: int = 100_000) -> list[Plan]:
+class Due:
+    """The part of a pending action's cost that is due in every state; nothing for other tasks and conditions."""
+
+    def __init__(self, space: Space, utility: Utility) -> None:
+        self.space = space
+        self.utility = utility
+        self.certain: dict[str, float] = {}
+
+    def __call__(self, pending: Pending) -> float:
+        if pending.label not in self.certain:
+            self.certain[pending.label] = 0.0
+            actions = self.space.problem.domain.actions
+            if isinstance(pending, Task) and pending.name in actions:
+                semantics = self.space.semantics
+                if semantics.bind(actions[pending.name], pending.arguments) is not None:
+                    law = semantics.law(pending.name, pending.arguments, None)
+                    self.certain[pending.label] = self.utility.risk_cost(law)
+        return self.certain[pending.label]
+
+
+def best_risk_costs(problem: Problem, utility: Utility, k: int, distinct: str, most_nodes: int = 2000) -> list[float]:
+    """The risk costs of the k best plans, which differ as sequences or as multisets of actions; all if there are fewer.
+
+    Uniform-cost search as for the optimum, but every list of actions that leads to a state and a network is a node of
+    its own.
+
+    Raises:
+        GaveUp: as `optimal_risk_cost`.
+    """
+    space, canonical = Space(problem), Canonical()
+    due = Due(space, utility)
+    generated = itertools.count()
+    queue: list[tuple[float, int, int, float, Node, tuple[str, ...]]] = []
+    cheapest: dict[object, float] = {}
+    found: dict[tuple[str, ...], float] = {}
+
+    def add(node: Node, steps: tuple[str, ...], cost: float) -> None:
+        key = (node.state, canonical(node.network), steps)
+        if cost < cheapest.get(key, math.inf):
+            cheapest[key] = cost
+            size = len(node.network)
+            heapq.heappush(queue, (cost + sum(map(due, node.network)), size, next(generated), cost, node, steps))
+
+    for root in space.roots():
+        add(root, (), 0.0)
+    while queue and len(found) < k:
+        _, size, _, cost, node, steps = heapq.heappop(queue)
+        if space.is_goal(node):
+            found.setdefault(steps, cost)
+        if len(cheapest) > most_nodes or size > LARGEST_NETWORK:
+            raise GaveUp
+        for step, successor in space.successors(node, utility):
+            executed = successor.last.step if successor.last is not node.last else None
+            after = steps if executed is None else (*steps, str(executed))
+            add(successor, after if distinct == "sequence" else tuple(sorted(after)), cost + step)
+    return list(found.values())
+
+
+def all_plans(problem: Problem, most: int = 100_000, largest_network: float = math.inf) -> list[Plan]:
     """All plans, one for each sequence of actions, by exhaustive decomposition; for problems whose space is finite.
 
     Raises:
-        GaveUp: more than `most` nodes were expanded.
+        GaveUp: more than `most` nodes were expanded, or a network has more than `largest_network` tasks.
     """
     space, canonical = Space(problem), Canonical()
     pending = [(root, ()) for root in space.roots()]
@@ -184,7 +230,7 @@ def all_plans(problem: Problem, most: int = 100_000) -> list[Plan]:
         if key in seen:
             continue
         seen.add(key)
-        if len(seen) > most:
+        if len(seen) > most or len(node.network) > largest_network:
             raise GaveUp
         if space.is_goal(node):
             plans.setdefault(steps, read_plan(node))

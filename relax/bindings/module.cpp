@@ -5,4 +5,5 @@ NB_MODULE(_relax, module) {
     bind_lifted_problem(module);
     bind_ground_problem(module);
     bind_find_plans(module);
+    bind_top_plans(module);
 }

@@ -25,7 +25,9 @@ void AdaptiveHeuristic::note_answer(bool told_more, std::uint64_t work_saved) {
     saved_ += told_more ? work_saved : 0;
     if (answers_ == kWindow) {
         const std::uint64_t spent = heuristic_->work() - window_start_;
-        pause_ = saved_ > 0 && kNodesBelow * (saved_ / kWindow) >= spent / kWindow ? 0 : std::clamp(2 * pause_, kWindow, kLongestPause);
+        pause_ = saved_ > 0 && kNodesBelow * (saved_ / kWindow) >= spent / kWindow
+                     ? 0
+                     : std::clamp(2 * pause_, kWindow, kLongestPause);
         unasked_nodes_ = pause_;
         answers_ = 0;
         saved_ = 0;

@@ -29,7 +29,7 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods, options.use_stubborn_sets, options.forget_facts) {
+      progression_(problem, costs_, tdg_bound(problem, costs_), options) {
     const bool asks_always = !options.ask_adaptively || !is_admissible(options.heuristic);
     heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
     for (const HeuristicKind kind : options.more_heuristics) {

@@ -26,7 +26,7 @@ GreedySearch::GreedySearch(const GroundProblem& problem, std::vector<Cost> costs
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), options.skip_dead_methods, options.use_stubborn_sets, options.forget_facts),
+      progression_(problem, costs_, tdg_bound(problem, costs_), options),
       heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
 

@@ -38,9 +38,9 @@ private:
     HMax hmax_;
 };
 
-// A heuristic for what a decomposition costs beyond the cheapest one, in the decomposition model. Every method costs its
-// slack, the sum of its subtasks' bounds less its task's, and actions are free: a plan costs the sum of the network's
-// bounds and of the slacks of the methods it uses.
+// A heuristic for what a decomposition costs beyond the cheapest one, in the decomposition model. Every method costs
+// its slack, the sum of its subtasks' bounds less its task's, and actions are free: a plan costs the sum of the
+// network's bounds and of the slacks of the methods it uses.
 template <typename ClassicalHeuristic>
 class Slack final : public Heuristic {
 public:

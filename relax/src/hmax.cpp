@@ -8,9 +8,8 @@ namespace relax {
 HMax::HMax(const RelaxedModel& model) : model_(model), facts_(model.fact_count(), {kInfinite, 0, false}) {
     for (OperatorId op = 0; op < model.operator_count(); ++op) {
         const auto row = model.preconditions[op];
-        const bool wakes_up = !model.is_decomposition() || std::ranges::any_of(row, [&](RelaxedFact fact) {
-            return model.starts_action(fact);
-        });
+        const bool wakes_up = !model.is_decomposition() ||
+                              std::ranges::any_of(row, [&](RelaxedFact fact) { return model.starts_action(fact); });
         operators_.push_back({0, 0, 0, 0, wakes_up ? 0 : static_cast<std::uint32_t>(row.size())});
     }
 }

@@ -164,9 +164,8 @@ void PartiallyOrderedNetworks::split(std::vector<Part>& parts) {
         return index;
     };
     for (std::uint32_t later = 0; later < count; ++later) {
-        for_each_bit(draft_.row(later), [&](std::size_t earlier) {
-            part_of_[root(static_cast<std::uint32_t>(earlier))] = root(later);
-        });
+        for_each_bit(draft_.row(later),
+                     [&](std::size_t earlier) { part_of_[root(static_cast<std::uint32_t>(earlier))] = root(later); });
     }
     parts.clear();
     place_.resize(count);

@@ -46,7 +46,7 @@ PlanBased::PlanBased(const GroundProblem& problem, std::vector<Cost> costs, cons
       statistics_(statistics),
       is_choice_(find_choices(problem)),
       task_bounds_(make_bounds(problem, costs_, is_choice_, options.heuristic)),
-      progression_(problem, costs_, task_bounds_, options.skip_dead_methods, options.use_stubborn_sets, options.forget_facts),
+      progression_(problem, costs_, task_bounds_, options),
       linearisation_(progression_, limits),
       open_preconditions_(problem) {}
 

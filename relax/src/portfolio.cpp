@@ -10,7 +10,7 @@ namespace relax {
 namespace {
 
 constexpr std::uint64_t kFirstTurn = 1'000'000;  // of work
-constexpr std::uint64_t kLaggardsShare = 8;       // one part in so many
+constexpr std::uint64_t kLaggardsShare = 8;      // one part in so many
 
 }  // namespace
 

@@ -25,20 +25,20 @@ std::optional<ActionId> first_action(const GroundProblem& problem, MethodId meth
 }  // namespace
 
 Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                         bool skip_dead_methods, bool use_stubborn_sets, bool forget_facts)
+                         const ProgressionOptions& options)
     : problem_(problem),
       costs_(std::move(costs)),
       transition_(problem),
       states_(transition_.word_count()),
       networks_(make_task_networks(problem, std::move(task_bounds))),
       next_(transition_.word_count()) {
-    if (use_stubborn_sets) {
+    if (options.use_stubborn_sets) {
         stubborn_set_.emplace(problem);
     }
-    if (forget_facts) {
+    if (options.forget_facts) {
         relevant_facts_.emplace(problem);
     }
-    if (skip_dead_methods) {
+    if (options.skip_dead_methods) {
         for (MethodId method = 0; method < problem.method_count(); ++method) {
             first_action_.push_back(first_action(problem, method));
         }
@@ -112,7 +112,8 @@ void Progression::choose_actions(StateId state, NetworkId network) {
 }
 
 bool Progression::is_in_the_way(TaskId task) const {
-    return problem_.is_primitive(task) && costs_[task] == 0 && transition_.has_no_effect(task);
+    return problem_.is_primitive(task) && costs_[task] == 0 && transition_.has_no_effect(task) &&
+           (hurried_.empty() || hurried_[task]);
 }
 
 void Progression::find_live_methods(StateId state) {

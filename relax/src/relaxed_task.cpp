@@ -85,9 +85,8 @@ void RelaxedTask::start_in_order(const NodeView& node) {
     for (std::size_t at = 0; at < node.tasks.size(); ++at) {
         needed_.clear();
         if (!node.predecessors.empty()) {
-            for_each_bit(node.predecessors.subspan(at * words, words), [&](std::size_t earlier) {
-                needed_.push_back(model_.reached(node.tasks[earlier]));
-            });
+            for_each_bit(node.predecessors.subspan(at * words, words),
+                         [&](std::size_t earlier) { needed_.push_back(model_.reached(node.tasks[earlier])); });
         }
         if (needed_.empty()) {
             starts_.push_back(model_.may_start(node.tasks[at]));

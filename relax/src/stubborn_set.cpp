@@ -81,7 +81,8 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
                 const auto row = network.row(other);
                 for (std::size_t word = 0; word < row.size(); ++word) {
                     if (const std::uint64_t bits = row[word] & is_open_[word]) {
-                        first = static_cast<std::uint32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+                        first =
+                            static_cast<std::uint32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
                         break;
                     }
                 }

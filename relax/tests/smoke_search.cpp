@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "relax/search.hpp"
+#include "relax/top_plans.hpp"
 
 namespace {
 
@@ -112,6 +113,27 @@ bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm 
     return good;
 }
 
+// The four best plans; every action is its own label.
+bool solve_for_several(bool ordered, relax::Distinct distinct, const std::vector<relax::Cost>& expected) {
+    const relax::GroundProblem problem = make_problem(ordered);
+    relax::TopPlansOptions options;
+    options.count = 4;
+    options.distinct = distinct;
+    relax::Limits limits;
+    relax::TopPlansStatistics statistics;
+    relax::TopPlans search(problem, {3, 5, 4}, {0, 1, 2}, options, limits, statistics);
+    const relax::TopPlansResult result = search.run();
+    std::vector<relax::Cost> costs;
+    for (const relax::SearchResult& plan : result.plans) {
+        costs.push_back(plan.cost.value_or(0));
+    }
+    const bool good = costs == expected && statistics.proven == 4 && !result.is_all;
+    if (!good) {
+        std::printf("wrong: the best plans, ordered %d, distinct %d\n", ordered, static_cast<int>(distinct));
+    }
+    return good;
+}
+
 }  // namespace
 
 int main() {
@@ -129,6 +151,11 @@ int main() {
         for (const auto heuristic : {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg}) {
             ++(solve(ordered, heuristic, relax::SearchAlgorithm::PlanBased) ? passed : failed);
         }
+    }
+    ++(solve_for_several(true, relax::Distinct::Sequence, {15, 18, 18, 21}) ? passed : failed);
+    ++(solve_for_several(false, relax::Distinct::Sequence, {15, 15, 15, 18}) ? passed : failed);
+    for (const bool ordered : {true, false}) {
+        ++(solve_for_several(ordered, relax::Distinct::Multiset, {15, 18, 21, 24}) ? passed : failed);
     }
     std::printf("%d passed, %d failed\n", passed, failed);
     return failed == 0 ? 0 : 1;

@@ -9,27 +9,40 @@ print(result)
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
+from statehtn.core.top_plans import TopProgress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.hddl.plan_format import read_plan, write_plan
-from statehtn.model import CostDistribution, Decomposition, Plan, Problem, Step
+from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
 from statehtn.planner import plan
 from statehtn.query import SOLVERS
 from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
 from statehtn.tabulate import tabulate_costs
+from statehtn.top_planner import top_plans
+from statehtn.top_result import RankedPlan, TopPlans
 from statehtn.validate import Validation, validate
+
+if TYPE_CHECKING:
+    from statehtn.attitudes import AttitudeComparison, compare_attitudes
+    from statehtn.build.cost_file import read_costs
+    from statehtn.build.cost_table import CostTable
 
 __all__ = [
     "HEURISTICS",
     "SEARCHES",
     "SOLVERS",
     "Attitude",
+    "AttitudeComparison",
     "CostDistribution",
+    "CostLaw",
+    "CostTable",
     "Decomposition",
     "Exponential",
     "HddlWarning",
@@ -41,24 +54,30 @@ __all__ = [
     "Problem",
     "ProblemBuilder",
     "Progress",
+    "RankedPlan",
     "Result",
     "StateHtnError",
     "Status",
     "Step",
+    "TopPlans",
+    "TopProgress",
     "UnsupportedError",
     "UsageError",
     "Utility",
     "Validation",
     "__version__",
     "chance",
+    "compare_attitudes",
     "equal",
     "exists",
     "forall",
     "plan",
+    "read_costs",
     "read_hddl",
     "read_hddl_text",
     "read_plan",
     "tabulate_costs",
+    "top_plans",
     "utility_for",
     "validate",
     "when",
@@ -67,11 +86,23 @@ __all__ = [
     "write_plan",
 ]
 
+_LATER = {
+    "AttitudeComparison": "statehtn.attitudes",
+    "CostTable": "statehtn.build.cost_table",
+    "compare_attitudes": "statehtn.attitudes",
+    "read_costs": "statehtn.build.cost_file",
+}
+"""Names that few need, and where they are."""
 
-def __getattr__(name: str) -> str:
+
+def __getattr__(name: str) -> Any:
+    """Look up what few need, and what takes its time, when it is asked for."""
+    if name in _LATER:
+        from importlib import import_module
+
+        return getattr(import_module(_LATER[name]), name)
     if name != "__version__":
         raise AttributeError(f"module 'statehtn' has no attribute '{name}'")
-    # Looked up when it is asked for: that takes as long as the rest of the import.
     from importlib.metadata import PackageNotFoundError, version
 
     try:

@@ -153,9 +153,11 @@ class HeuristicKind(enum.Enum):
 
     Potential = 4
 
-    Add = 5
+    PotentialHMax = 5
 
-    Ff = 6
+    Add = 6
+
+    Ff = 7
 
 class SearchAlgorithm(enum.Enum):
     AStar = 0
@@ -217,6 +219,14 @@ class SearchOptions:
     def use_stubborn_sets(self) -> bool: ...
     @use_stubborn_sets.setter
     def use_stubborn_sets(self, arg: bool, /) -> None: ...
+    @property
+    def forget_facts(self) -> bool: ...
+    @forget_facts.setter
+    def forget_facts(self, arg: bool, /) -> None: ...
+    @property
+    def follow_forced(self) -> bool: ...
+    @follow_forced.setter
+    def follow_forced(self, arg: bool, /) -> None: ...
     @property
     def upper_bound(self) -> int | None: ...
     @upper_bound.setter
@@ -288,3 +298,53 @@ def find_plans(
     memory_bytes: int | None = None,
     progress: object | None = None,
 ) -> SearchResult: ...
+
+class Distinct(enum.Enum):
+    Sequence = 0
+
+    Multiset = 1
+
+class TopPlansOptions:
+    def __init__(self) -> None: ...
+    @property
+    def count(self) -> int: ...
+    @count.setter
+    def count(self, arg: int, /) -> None: ...
+    @property
+    def distinct(self) -> Distinct: ...
+    @distinct.setter
+    def distinct(self, arg: Distinct, /) -> None: ...
+    @property
+    def limits_ways(self) -> bool: ...
+    @limits_ways.setter
+    def limits_ways(self, arg: bool, /) -> None: ...
+    @property
+    def search(self) -> SearchOptions: ...
+    @search.setter
+    def search(self, arg: SearchOptions, /) -> None: ...
+
+class TopPlansStatistics(SearchStatistics):
+    @property
+    def found(self) -> int: ...
+    @property
+    def proven(self) -> int: ...
+
+class TopPlansResult:
+    @property
+    def stop(self) -> StopReason | None: ...
+    @property
+    def is_all(self) -> bool: ...
+    @property
+    def statistics(self) -> TopPlansStatistics: ...
+    @property
+    def plans(self) -> list[SearchResult]: ...
+
+def top_plans(
+    problem: GroundProblem,
+    costs: Sequence[int],
+    labels: Sequence[int | None],
+    options: TopPlansOptions,
+    seconds: float | None = None,
+    memory_bytes: int | None = None,
+    progress: object | None = None,
+) -> TopPlansResult: ...

@@ -19,7 +19,7 @@ from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.query import Query
 from statehtn.result import PricedStep, Result
-from statehtn.risk import Attitude, problem_class
+from statehtn.risk import Attitude, Utility, problem_class
 from statehtn.validate import validate
 
 ProgressCallback = Callable[[Progress], None]
@@ -62,7 +62,8 @@ def plan(
 
     Raises:
         UsageError: an argument is out of its range.
-        InputError: the cost of a reachable action is undefined, negative or no distribution.
+        InputError: the cost of a reachable action is undefined, negative or no distribution, or has no finite price
+            for this agent (a heavy tail, for an averse one).
         UnsupportedError: the problem asks for something that the planner does not do.
     """
     query = Query.of(attitude, alpha, solver, heuristic, search, weight, branch)
@@ -76,23 +77,22 @@ def plan_files(
     query: Query,
     *,
     strict: bool = False,
+    costs: str | os.PathLike[str] | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
 ) -> tuple[Result, Problem | None]:
     """Read a problem from HDDL files and plan; the limits hold for the reading, too.
 
-    Returns the result, and the problem where it was read to its end. The other arguments and what it raises: see `plan`
+    `costs` is a file with costs for the domain's actions (`read_costs`). Returns the result, and the problem where it
+    was read to its end. The other arguments and what it raises: see `plan`
     and `read_hddl`.
     """
     limits = Limits.starting_now(time_limit, memory_limit)
-    start = time.perf_counter()
-    try:
-        read = read_hddl(domain, problem, strict=strict, limits=limits)
-    except ENDINGS as ending:
-        statistics = Statistics(parse_seconds=time.perf_counter() - start)
-        return no_plan(query, status_of(ending), statistics), None
-    return _solve(read, query, limits, progress, Statistics(parse_seconds=time.perf_counter() - start)), read
+    read, statistics = measured_read(domain, problem, strict, limits, costs)
+    if isinstance(read, Status):
+        return no_plan(query, read, statistics), None
+    return _solve(read, query, limits, progress, statistics), read
 
 
 def no_plan(query: Query, status: Status, statistics: Statistics, bound: float | None = None) -> Result:
@@ -123,16 +123,35 @@ def status_of(ending: BaseException) -> Status:
             return Status.INTERRUPTED
 
 
-def _solve(
-    problem: Problem, query: Query, limits: Limits, progress: ProgressCallback | None, statistics: Statistics
-) -> Result:
-    """Ground, search and validate."""
+def measured_read(
+    domain: str | os.PathLike[str],
+    problem: str | os.PathLike[str],
+    strict: bool,
+    limits: Limits,
+    costs: str | os.PathLike[str] | None = None,
+) -> tuple[Problem | Status, Statistics]:
+    """Read a problem and a file with its costs, and take the time; returns the status where something ended it."""
+    start = time.perf_counter()
+    read: Problem | Status
+    try:
+        read = read_hddl(domain, problem, strict=strict, limits=limits)
+        if costs is not None:
+            from statehtn.build.cost_file import read_costs  # few runs need it
+
+            read = read_costs(costs).apply(read)
+    except ENDINGS as ending:
+        read = status_of(ending)
+    return read, Statistics(parse_seconds=time.perf_counter() - start)
+
+
+def measured_ground(problem: Problem, limits: Limits, statistics: Statistics) -> tuple[Grounding | Status, Statistics]:
+    """Ground a problem, take the time and count; returns the status instead where something ended it."""
     start = time.perf_counter()
     try:
         grounding = ground(problem, limits)
     except ENDINGS as ending:
-        return no_plan(query, status_of(ending), replace(statistics, ground_seconds=time.perf_counter() - start))
-    statistics = replace(
+        return status_of(ending), replace(statistics, ground_seconds=time.perf_counter() - start)
+    return grounding, replace(
         statistics,
         facts=grounding.fact_count,
         actions=grounding.action_count,
@@ -140,6 +159,15 @@ def _solve(
         methods=grounding.method_count,
         ground_seconds=time.perf_counter() - start,
     )
+
+
+def _solve(
+    problem: Problem, query: Query, limits: Limits, progress: ProgressCallback | None, statistics: Statistics
+) -> Result:
+    """Ground, search and validate."""
+    grounding, statistics = measured_ground(problem, limits, statistics)
+    if isinstance(grounding, Status):
+        return no_plan(query, grounding, statistics)
     start = time.perf_counter()
     try:
         outcome = _search(grounding, query, limits, progress)
@@ -154,7 +182,10 @@ def _solve(
         search_seconds=time.perf_counter() - start,
     )
     result = no_plan(query, outcome.status, statistics, outcome.lower_bound)
-    return result if outcome.plan is None else _with_plan(result, problem, outcome.plan)
+    if outcome.plan is None:
+        return result
+    plan, steps = priced_plan(problem, outcome.plan, query.utility)
+    return replace(result, plan=plan, steps=steps)
 
 
 def _search(grounding: Grounding, query: Query, limits: Limits, progress: ProgressCallback | None) -> SearchOutcome:
@@ -179,8 +210,8 @@ def _search(grounding: Grounding, query: Query, limits: Limits, progress: Progre
     )
 
 
-def _with_plan(result: Result, problem: Problem, found: Plan) -> Result:
-    """Validate the plan independently of the search, and price its steps in the states they are executed in.
+def priced_plan(problem: Problem, found: Plan, utility: Utility) -> tuple[Plan, tuple[PricedStep, ...]]:
+    """Validate a plan independently of the search, and price its steps in the states they are executed in.
 
     Raises:
         InternalError: the plan is wrong.
@@ -189,7 +220,7 @@ def _with_plan(result: Result, problem: Problem, found: Plan) -> Result:
     if not validation.valid:
         raise InternalError(f"the search returned a wrong plan: {'; '.join(validation.reasons)}")
     steps = tuple(
-        PricedStep(step, law, law.mean, result.utility.risk_cost(law))
+        PricedStep(step, law, law.mean, utility.risk_cost(law))
         for step, law in zip(found.steps, validation.costs, strict=True)
     )
-    return replace(result, plan=found, steps=steps)
+    return found.with_costs(validation.costs), steps

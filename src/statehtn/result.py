@@ -9,7 +9,8 @@ from typing import Any
 
 from statehtn.display.result import result_html, result_text
 from statehtn.effort import Statistics
-from statehtn.model.costs import CostDistribution
+from statehtn.model.cost_distribution import CostDistribution
+from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan, Step
 from statehtn.model.status import Status
 from statehtn.risk import Utility
@@ -27,19 +28,24 @@ class PricedStep:
     """
 
     step: Step
-    law: CostDistribution
+    law: CostLaw
     expected_cost: float
     risk_cost: float
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the entry of `plan` in the JSON object."""
-        return {
+        """Return the entry of `plan` in the JSON object.
+
+        `outcomes` is null for a law that is no list of outcomes; `law` then says in words what it is.
+        """
+        entry = {
             "action": self.step.action,
             "arguments": list(self.step.arguments),
             "expected_cost": self.expected_cost,
             "risk_cost": self.risk_cost,
-            "outcomes": [list(outcome) for outcome in self.law.outcomes],
         }
+        if isinstance(self.law, CostDistribution):
+            return entry | {"outcomes": [list(outcome) for outcome in self.law.outcomes]}
+        return entry | {"outcomes": None, "law": str(self.law)}
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from statehtn.core.grounding import Grounding, ground
+from statehtn.errors import UnsupportedError
 from statehtn.model import Action, CostBlock, CostDistribution, Expression, FunctionTerm, Number, Problem, Signature
 from statehtn.model.cost_law import block_law
 from statehtn.model.costs import exact
@@ -23,7 +24,8 @@ def tabulate_costs(problem: Problem) -> Problem:
 
     Raises:
         InputError: a callable fails, or its answer is no cost.
-        UnsupportedError: the problem asks for something that the planner does not do.
+        UnsupportedError: the problem asks for something that the planner does not do, or an answer is no list of
+            outcomes.
     """
     if not any(block.external for action in problem.domain.actions.values() for block in action.costs):
         return problem
@@ -54,7 +56,13 @@ def _reached(grounding: Grounding) -> dict[str, dict[Arguments, None]]:
 
 
 def _law(block: CostBlock, action: Action, arguments: Arguments, problem: Problem) -> CostDistribution:
-    return block_law(block, action, arguments, (), problem.function_values)
+    law = block_law(block, action, arguments, (), problem.function_values)
+    if isinstance(law, CostDistribution):
+        return law
+    raise UnsupportedError(
+        f"the external cost of ({' '.join((action.name, *arguments))}) is {law}, which is no list of outcomes; let the "
+        f"callable return law.discretised(20), say"
+    )
 
 
 def _tabulated(

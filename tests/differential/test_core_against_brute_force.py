@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import pytest
 from hypothesis import assume, given
+from hypothesis import strategies as st
 
 from statehtn import Result, Status, validate
 from statehtn.core.grounding import GroundingSwitches, ground
+from statehtn.core.heuristics import PORTFOLIO
 from statehtn.core.search import SEARCHES, SearchSwitches, find_plans
 from statehtn.limits import Limits
 from statehtn.model import Problem
@@ -63,10 +67,13 @@ def test_every_search_keeps_what_its_status_says(search: str, problem: Problem, 
     check(problem, utility, solve(problem, utility, search=search))
 
 
-@pytest.mark.parametrize("heuristic", [name for name in ADMISSIBLE if name != "blind"])
-@pytest.mark.parametrize("switch", ["tdg_bound", "inherit_h", "adaptive", "skip_dead_methods", "stubborn_sets"])
-@given(problem=problems(), utility=utilities())
-def test_optimum_without_a_refinement(switch: str, heuristic: str, problem: Problem, utility: Utility) -> None:
+@pytest.mark.parametrize("switch", [field.name for field in fields(SearchSwitches)])
+@given(
+    problem=problems(),
+    utility=utilities(),
+    heuristic=st.sampled_from([PORTFOLIO, *(name for name in ADMISSIBLE if name != "blind")]),
+)
+def test_optimum_without_a_refinement(switch: str, problem: Problem, utility: Utility, heuristic: str) -> None:
     optimum = brute_force(problem, utility)
     switches = SearchSwitches(**{switch: False})
     limits = Limits.starting_now(SECONDS)

@@ -1,18 +1,21 @@
-"""The paper's tables, the problems they are about, and what it means to agree with a printed number."""
+"""The paper's tables, the problems they are about, and what it means to agree with a printed number.
+
+The tables that the report shows ship with the package; the others are here.
+"""
 
 from __future__ import annotations
 
 import csv
-from decimal import Decimal
 from functools import cache
 from pathlib import Path
 
 import statehtn
+from statehtn.experiments.report import paper_tables
 from statehtn.model import Plan, Problem
 from statehtn.result import Result
 from statehtn.validate import validate
 
-TABLES = Path(__file__).parent / "tables"
+FOLDERS = (Path(__file__).parent / "tables", paper_tables.FOLDER)
 DOMAINS = Path(__file__).parents[2] / "domains"
 
 ADMISSIBLE_HEURISTICS = ("blind", "tdg", "hmax", "lmcut")
@@ -20,7 +23,8 @@ ADMISSIBLE_HEURISTICS = ("blind", "tdg", "hmax", "lmcut")
 
 def rows(table: str) -> list[dict[str, str]]:
     """Return the lines of a table as dictionaries of strings, as printed."""
-    with (TABLES / f"{table}.csv").open(newline="", encoding="utf-8") as file:
+    (path,) = (path for folder in FOLDERS if (path := folder / f"{table}.csv").is_file())
+    with path.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
@@ -50,16 +54,6 @@ def solve(domain: str, instance: str, attitude: str, alpha: float | None, heuris
 def actions(plan: Plan) -> tuple[str, ...]:
     """Return the names of a plan's actions."""
     return tuple(step.action for step in plan.steps)
-
-
-def agrees(value: object, printed: str) -> bool:
-    """Tell whether a value rounds to a printed number: it is off by half a unit of the last printed digit at most."""
-    number = Decimal(printed)
-    exponent = number.as_tuple().exponent
-    assert isinstance(exponent, int)
-    half_a_digit = Decimal(1).scaleb(exponent) / 2
-    noise = abs(number) * Decimal("1e-12")
-    return abs(Decimal(str(value)) - number) <= half_a_digit + noise
 
 
 def alpha_of(row: dict[str, str]) -> float | None:

@@ -8,6 +8,7 @@ import pytest
 
 import statehtn
 from statehtn.core.grounding import PLAIN, ground
+from statehtn.experiments.report.paper_tables import agrees
 from statehtn.model import CostDistribution, Plan
 from statehtn.reference import Heuristic as ReferenceHeuristic
 from statehtn.reference import blind, find_plans, hmax
@@ -18,7 +19,6 @@ from tests.regression.paper_tables import (
     ADMISSIBLE_HEURISTICS,
     DOMAINS,
     actions,
-    agrees,
     alpha_of,
     problem,
     rows,

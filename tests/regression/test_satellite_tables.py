@@ -6,6 +6,7 @@ from functools import cache
 
 import pytest
 
+from statehtn.experiments.report.paper_tables import agrees
 from statehtn.model import CostDistribution, Plan
 from statehtn.risk import expected_utility_text, plan_expected_cost, plan_risk_cost, utility_for
 from statehtn.validate import validate
@@ -13,7 +14,6 @@ from tests.brute_force import all_plans
 from tests.regression.paper_tables import (
     ADMISSIBLE_HEURISTICS,
     actions,
-    agrees,
     alpha_of,
     instances,
     problem,

@@ -9,8 +9,8 @@
 
 namespace relax {
 
-// A heuristic, and whether it is worth asking. Its answers are judged by the window: while too few of them tell more than
-// was known, more and more nodes go unasked before the next window.
+// A heuristic, and whether it is worth asking. Its answers are judged by the window: while too few of them tell more
+// than was known, more and more nodes go unasked before the next window.
 class AdaptiveHeuristic {
 public:
     // `asks_always`: whether to ask for every node all the same.
@@ -29,8 +29,8 @@ public:
 private:
     std::unique_ptr<Heuristic> heuristic_;
     bool asks_always_;
-    // Of the present window: how many answers there were, and the work they saved; then how many nodes still go unasked,
-    // and how many will the next time.
+    // Of the present window: how many answers there were, and the work they saved; then how many nodes still go
+    // unasked, and how many will the next time.
     std::uint32_t answers_ = 0;
     std::uint64_t window_start_ = 0;  // of its work
     std::uint64_t saved_ = 0;

@@ -22,8 +22,8 @@ struct NodeView {
     std::span<const std::uint64_t> state;  // bits by FactId
     std::span<const TaskId> tasks;         // of the network, with repetitions
     Cost tdg_bound;                        // of the network
-    // Their order: as they stand, or for each a row of bits for those before it, one after the other. No rows: nothing is
-    // known of their order.
+    // Their order: as they stand, or for each a row of bits for those before it, one after the other. No rows: nothing
+    // is known of their order.
     bool is_totally_ordered = false;
     std::span<const std::uint64_t> predecessors = {};
 };

@@ -43,9 +43,7 @@ private:
     void mark_goal_zone(const RelaxedTask& task);
     void find_cut(const RelaxedTask& task, Cost goal_cost);
     bool is_reached_outside(const RelaxedTask& task, RelaxedFact fact, Cost goal_cost);
-    Zone zone(RelaxedFact fact) const {
-        return marks_[fact].round == rounds_ ? marks_[fact].zone : Zone::Unknown;
-    }
+    Zone zone(RelaxedFact fact) const { return marks_[fact].round == rounds_ ? marks_[fact].zone : Zone::Unknown; }
     void put_into_goal_zone(RelaxedFact fact);
 
     const RelaxedModel& model_;

@@ -15,8 +15,8 @@ namespace relax {
 using ComponentId = std::uint32_t;
 
 // Tasks that the order ties together, each such component kept once in a canonical form. Two components get the same
-// number only if their forms are equal to the letter, which is a verified isomorphism; that isomorphic components always
-// meet in one form is not promised, and nothing but work depends on it.
+// number only if their forms are equal to the letter, which is a verified isomorphism; that isomorphic components
+// always meet in one form is not promised, and nothing but work depends on it.
 class NetworkComponents {
 public:
     // `task_bounds`: by TaskId, see tdg_bound.

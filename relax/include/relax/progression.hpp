@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "relax/ground_problem.hpp"
@@ -29,29 +30,37 @@ struct Successor {
     SearchStep step;
 };
 
+struct ProgressionOptions {
+    bool skip_dead_methods = true;  // leave out methods whose first task cannot be executed where it would come next
+    bool use_stubborn_sets = true;  // leave out actions that can wait until others have been executed
+    bool forget_facts = true;       // states keep only the facts that matter to what is left to do
+};
+
 // Progression over states and task networks; knows nothing of search algorithms.
 //
 // Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend
 // on the state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to
 // try the methods of one of them. An applicable action that costs and changes nothing (a method precondition) can only
-// be in the way: executing it at once is enough, whatever else is unconstrained. Otherwise the applicable unconstrained actions are tried, of
-// which a stubborn set is enough. Where nothing but one compound task is unconstrained, the first task of a method
-// comes next: a method whose first task is an action that is not applicable leads nowhere.
+// be in the way: executing it at once is enough, whatever else is unconstrained. Otherwise the applicable unconstrained
+// actions are tried, of which a stubborn set is enough: beside compound tasks, too, where it is no larger than the set
+// of methods. Where nothing but one compound task is unconstrained, the first task of a method comes next: a method
+// whose first task is an action that is not applicable leads nowhere.
 class Progression {
 public:
-    // `costs`: by ActionId. `task_bounds`: see tdg_bound. `skip_dead_methods`: whether to leave out such methods;
-    // `use_stubborn_sets`: whether to leave out actions that can wait; `forget_facts`: whether states keep only what
-    // matters to their networks.
+    // `costs`: by ActionId. `task_bounds`: see tdg_bound.
     Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                bool skip_dead_methods, bool use_stubborn_sets, bool forget_facts);
+                const ProgressionOptions& options);
 
     StateId initial_state();
     NetworkId initial_network() { return networks_->initial(); }
     // Replace the content of `successors` by the node's successors.
     void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
+    // Of the actions that cost and change nothing, execute at once only those that are named (by ActionId) from now on:
+    // for searches to which the order of the others makes a difference.
+    void hurry_only(std::vector<bool> actions) { hurried_ = std::move(actions); }
 
-    // The same where there is at most one successor, or one is enough, and that is found with little work. False, and no
-    // successors, elsewhere.
+    // The same where there is at most one successor, or one is enough, and that is found with little work. False, and
+    // no successors, elsewhere.
     bool expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors);
     // What heuristics see of a node; valid until the next call.
     NodeView view(StateId state, NetworkId network);
@@ -77,6 +86,7 @@ private:
     std::vector<std::optional<ActionId>> first_action_;
     std::optional<StubbornSet> stubborn_set_;
     std::optional<RelevantFacts> relevant_facts_;
+    std::vector<bool> hurried_;  // by ActionId; empty for all
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
     // Of the node looked at: the task to decompose, if there is one; the methods or else the actions to try.

@@ -22,7 +22,7 @@ struct SearchNode {
     NetworkId network;
     NodeId parent;  // itself for the root
     std::uint32_t occurrence;
-    MethodId method;    // kExecuted where the step executed an action
+    MethodId method;                // kExecuted where the step executed an action
     std::uint8_t heuristics_asked;  // how many; `h` includes what they told
     bool is_expanded;               // at its present g
 

@@ -7,6 +7,7 @@
 
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
+#include "relax/progression.hpp"
 
 namespace relax {
 
@@ -14,7 +15,7 @@ namespace relax {
 // in turn.
 enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased, Portfolio };
 
-struct SearchOptions {
+struct SearchOptions : ProgressionOptions {
     HeuristicKind heuristic = HeuristicKind::LmCut;
     // A* asks them, one by one, where those before leave f as it is; all are admissible.
     std::vector<HeuristicKind> more_heuristics;
@@ -23,9 +24,6 @@ struct SearchOptions {
     bool use_tdg_bound = true;         // bound nodes by the decomposition graph before the heuristic is asked
     bool inherit_h = true;             // a node's h is at least its parent's less the cost of the step
     bool ask_adaptively = true;        // ask an admissible heuristic rarely while it tells no more than the cheap bound
-    bool skip_dead_methods = true;     // leave out methods whose first task cannot be executed where it would come next
-    bool use_stubborn_sets = true;     // leave out actions that can wait until others have been executed
-    bool forget_facts = true;          // states keep only the facts that matter to what is left to do
     bool follow_forced = true;         // go on at once where there is but one way
     std::optional<Cost> upper_bound;   // only plans that cost less are wanted
     bool branches_over_all = false;    // PlanBased tries every compound task of a network, not one

@@ -18,12 +18,12 @@ namespace relax {
 
 // Which of a network's unconstrained actions need to be tried next: a set such that no plan loses anything if one of
 // it comes first (after Valmari's stubborn sets, 1989), before any other action and before any task is decomposed. The
-// rest of the network, compound tasks with all that they may lead to included, as far as it is not ordered after the set, must not interfere with an applicable action of the set, nor make a false precondition of another one true.
+// rest of the network, compound tasks with all that they may lead to included, as far as it is not ordered after the
+// set, must not interfere with an applicable action of the set, nor make a false precondition of another one true.
 // Every task has to be executed some time; the first one of the set can then be moved to the front of any plan.
 class StubbornSet {
 public:
-    explicit StubbornSet(const GroundProblem& problem)
-        : problem_(problem), profiles_(problem), transition_(problem) {}
+    explicit StubbornSet(const GroundProblem& problem) : problem_(problem), profiles_(problem), transition_(problem) {}
 
     // Find the applicable ones of the smallest such set: where there are none, the node is a dead end. Nothing, where
     // every set has to do with an unconstrained compound task. Valid until the next call.

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
@@ -23,6 +23,7 @@ from statehtn.model import (
     Atom,
     CostBlock,
     CostDistribution,
+    CostLaw,
     Effect,
     Expression,
     Forall,
@@ -31,8 +32,9 @@ from statehtn.model import (
     Number,
     Parameter,
 )
-from statehtn.model.costs import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, exact
+from statehtn.model.costs import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, block_of, exact
 from statehtn.model.formula import Combinable
+from statehtn.model.law import is_of_scipy
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +62,11 @@ class Quantified:
 
 EffectPart = Combinable | When | Quantified
 """Atoms that become true, negated ones that become false, conjunctions of both; under `when` and `forall`."""
-CostPart = Amount | CostDistribution | Computable | Chance | Callable[..., Any] | When | Quantified
-"""A number, a distribution, an expression, `chance(...)` or a Python callable; also under `when` and `forall`."""
+CostPart = Amount | CostLaw | Computable | Chance | Callable[..., Any] | When | Quantified
+"""A number, a law, an expression, `chance(...)` or a Python callable; also under `when` and `forall`.
+
+A frozen distribution of `scipy.stats` is taken as its law.
+"""
 
 
 def when(condition: Combinable, *parts: EffectPart | CostPart) -> When:
@@ -145,6 +150,10 @@ def costs_of(
         if _is_external(part):
             found.append(CostBlock((), condition, bound, external(action, parameters, part)))
             continue
+        law = CostDistribution.from_scipy(part) if is_of_scipy(part) else part
+        if isinstance(law, CostLaw):
+            found.append(replace(block_of(law), condition=condition, parameters=bound))
+            continue
         branches = _branches(part)
         for branch in branches:
             for expression in branch:
@@ -187,14 +196,12 @@ def _listed(parts: object) -> Sequence[object]:
 
 
 def _is_external(part: object) -> TypeGuard[ExternalCost]:
-    return callable(part) and not isinstance(part, CostDistribution)
+    return callable(part) and not isinstance(part, CostLaw) and not is_of_scipy(part)
 
 
 def _branches(part: object) -> tuple[tuple[Expression, Expression], ...]:
     if isinstance(part, Chance):
         return part.branches
-    if isinstance(part, CostDistribution):
-        return tuple((Number(exact(probability)), Number(exact(cost))) for probability, cost in part.outcomes)
     if isinstance(part, Computable | Real | Decimal) and not isinstance(part, bool):
         return ((Number(Fraction(1)), _expression(part, "a cost")),)
     raise UsageError(

@@ -1,4 +1,4 @@
-"""The command line: `statehtn plan`, `statehtn validate` and `statehtn compare`."""
+"""The command line: `statehtn plan`, `top`, `validate`, `compare`, `report` and `graph`."""
 
 from statehtn.cli.program import main
 

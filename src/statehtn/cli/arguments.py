@@ -9,10 +9,12 @@ from typing import Any, NoReturn
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.search import SEARCHES
+from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.query import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
+from statehtn.top_planner import DEFAULT_TOP_HEURISTIC, TOP_HEURISTICS
 
 PLAN_EPILOG = """heuristics:
   auto       A* with tdg, potential and lmcut in turn, which share what they prove
@@ -21,6 +23,12 @@ PLAN_EPILOG = """heuristics:
 exit codes:
   0 plan found    10 proven unsolvable    20 time limit      30 input error             130 interrupted
   2 usage         12 search exhausted     21 memory limit    31 unsupported feature
+"""
+
+TOP_EPILOG = """exit codes:
+  0 plans found   10 proven unsolvable    21 memory limit    31 unsupported feature
+  2 usage         20 time limit           30 input error     130 interrupted
+What was found before a limit is printed, with exit code 0; the output says how much of it is proven.
 """
 
 COMPARE_EPILOG = """suites:
@@ -68,10 +76,15 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     """
     parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="plan|validate|compare|graph")
+    commands = parser.add_subparsers(
+        dest="command", required=True, metavar="plan|top|validate|compare-attitudes|compare|report|graph"
+    )
     _add_plan(commands)
+    _add_top(commands)
     _add_validate(commands)
+    _add_compare_attitudes(commands)
     _add_compare(commands)
+    _add_report(commands)
     _add_graph(commands)
     return parser.parse_args(arguments)
 
@@ -113,13 +126,49 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
         choices=list(BRANCHES),
         help="of the solver plan: decompose the task of a network with the fewest methods (default), or every one",
     )
-    search.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
-    search.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    _add_limits(search)
     output = parser.add_argument_group("output")
     output.add_argument("--output", metavar="FILE", help="write the plan with its decomposition (IPC 2020 format)")
     form = output.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print the result as one JSON object")
     form.add_argument("--quiet", action="store_true", help="print the plan's actions only, one per line")
+
+
+def _add_top(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "top",
+        help="find the K best plans",
+        description="Find the K plans with the highest expected utility for an agent's attitude to risk, and prove it. "
+        "Where there are fewer, all are printed.",
+        epilog=TOP_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("k", type=_count, metavar="K", help="how many plans")
+    _add_inputs(parser)
+    _add_agent(parser)
+    search = parser.add_argument_group("the search")
+    search.add_argument(
+        "--distinct",
+        choices=list(DISTINCT),
+        default="sequence",
+        help="plans differ in the sequence of their actions (default), or plans with the same actions in another order "
+        "are one",
+    )
+    search.add_argument("--heuristic", choices=TOP_HEURISTICS, help=f"default: {DEFAULT_TOP_HEURISTIC}")
+    _add_limits(search)
+    output = parser.add_argument_group("output")
+    output.add_argument(
+        "--output", metavar="DIR", help="write each plan with its decomposition (IPC 2020 format) into this folder"
+    )
+    form = output.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    form.add_argument("--quiet", action="store_true", help="print the plans' actions only, one plan per line")
+
+
+def _add_limits(group: argparse._ArgumentGroup) -> None:
+    group.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
+    group.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
 
 
 def _add_agent(parser: argparse.ArgumentParser) -> None:
@@ -140,6 +189,31 @@ def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
     )
     _add_inputs(parser)
     parser.add_argument("plan", metavar="PLAN", help="plan file")
+
+
+def _add_compare_attitudes(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "compare-attitudes",
+        help="show the plans of several agents side by side",
+        description="Plan for risk-averse, neutral and seeking agents, and show where their plans part, what each plan "
+        "would cost the other agents, and why each agent does not do what its neighbour does.",
+        epilog="Exit codes: as of 'statehtn plan', of the first agent that has no plan; 0 if all have one.",
+        allow_abbrev=False,
+    )
+    _add_inputs(parser)
+    parser.add_argument(
+        "--alpha",
+        type=float,
+        nargs="+",
+        default=[1.0],
+        metavar="A",
+        help="how much the averse and the seeking agents care, per unit of cost; several for more agents; default: 1",
+    )
+    parser.add_argument("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of the search in 'statehtn plan'")
+    parser.add_argument("--search", choices=("astar", "anytime", "greedy"), default="astar", help="default: astar")
+    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds for each agent")
+    parser.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    parser.add_argument("--json", action="store_true", help="print the comparison as one JSON object")
 
 
 def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
@@ -194,6 +268,19 @@ def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser.add_argument("--quiet", action="store_true", help="show no progress and no summary")
 
 
+def _add_report(commands: argparse._SubParsersAction[_Parser]) -> None:
+    parser = commands.add_parser(
+        "report",
+        help="write a page about the results of a comparison",
+        description="Write one page of HTML about the results of 'statehtn compare': the paper's tables beside these, "
+        "the distributions of the plans' costs, the solvers against each other, coverage. It needs no network.",
+        epilog="Exit codes: 0 written, 2 usage, 30 input error, 74 cannot write.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("results", metavar="FILE.csv", help="the table of results; FILE.jsonl is expected beside it")
+    parser.add_argument("--output", metavar="FILE.html", required=True, help="the page")
+
+
 def _add_graph(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser = commands.add_parser(
         "graph",
@@ -222,4 +309,5 @@ def _count(text: str) -> int:
 def _add_inputs(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("domain", metavar="DOMAIN", help="HDDL file of the domain")
     parser.add_argument("problem", metavar="PROBLEM", help="HDDL file of the problem")
+    parser.add_argument("--costs", metavar="FILE", help="TOML or JSON file with other costs of actions (docs/costs.md)")
     parser.add_argument("--strict", action="store_true", help="treat warnings about the input as errors")

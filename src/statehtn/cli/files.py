@@ -1,7 +1,8 @@
-"""Writing: text to standard output, and files that are written whole or not at all."""
+"""Problems from files; text to standard output, and files that are written whole or not at all."""
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import os
 import stat
@@ -10,6 +11,22 @@ import tempfile
 from pathlib import Path
 
 from statehtn.errors import UsageError
+from statehtn.hddl import read_hddl
+from statehtn.model import Problem
+
+
+def read_problem(options: argparse.Namespace) -> Problem:
+    """Read the problem that the options name, with the costs that they name.
+
+    Raises:
+        StateHtnError: a file is wrong.
+    """
+    problem = read_hddl(options.domain, options.problem, strict=options.strict)
+    if options.costs is None:
+        return problem
+    from statehtn.build.cost_file import read_costs  # few runs need it
+
+    return read_costs(options.costs).apply(problem)
 
 
 class OutputError(Exception):

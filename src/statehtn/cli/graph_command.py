@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import check_writable, emit, write_whole
+from statehtn.cli.files import check_writable, emit, read_problem, write_whole
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.decomposition import (
     ground_task_decomposition_graph,
@@ -20,7 +20,6 @@ from statehtn.decomposition import (
     with_values,
 )
 from statehtn.errors import UsageError
-from statehtn.hddl import read_hddl
 from statehtn.model import Problem
 from statehtn.reference import build_rc_model
 from statehtn.reference.relaxed_graph import relaxed_model_graph
@@ -48,7 +47,7 @@ def run_graph(options: argparse.Namespace) -> ExitCode:
         raise UsageError(f"values for an agent are shown on the gcv-tdg, not on the {options.kind}")
     utility = utility_for(options.attitude, options.alpha)
     check_writable(options.output)
-    problem = read_hddl(options.domain, options.problem, strict=options.strict)
+    problem = read_problem(options)
     graph = make_graph(problem, options.kind, utility)
     write_whole(options.output, FORMATS[suffix](graph))
     emit(f"{options.output}: {len(graph)} nodes, {graph.number_of_edges()} edges")

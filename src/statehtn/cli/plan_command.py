@@ -42,6 +42,7 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
                 options.problem,
                 query,
                 strict=options.strict,
+                costs=options.costs,
                 time_limit=options.time_limit,
                 memory_limit=options.memory_limit,
                 progress=progress.callback,

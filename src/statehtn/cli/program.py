@@ -38,12 +38,24 @@ def _run(options: argparse.Namespace) -> ExitCode:
     match options.command:
         case "plan":
             return run_plan(options)
+        case "top":
+            from statehtn.cli.top_command import run_top  # what it needs would slow down the others
+
+            return run_top(options)
         case "validate":
             return run_validate(options)
+        case "compare-attitudes":
+            from statehtn.cli.attitudes_command import run_compare_attitudes
+
+            return run_compare_attitudes(options)
         case "graph":
             from statehtn.cli.graph_command import run_graph  # what it needs would slow down the others
 
             return run_graph(options)
+        case "report":
+            from statehtn.cli.report_command import run_report  # what it needs would slow down the others
+
+            return run_report(options)
         case _:
             from statehtn.cli.compare_command import run_compare  # what it needs would slow down the others
 

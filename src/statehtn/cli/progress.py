@@ -9,6 +9,7 @@ import time
 from types import TracebackType
 
 from statehtn.core.search import Progress
+from statehtn.core.top_plans import TopProgress
 from statehtn.planner import ProgressCallback
 
 SECONDS_BETWEEN_LINES = 0.1
@@ -34,16 +35,27 @@ class ProgressLine:
 
     def show(self, progress: Progress) -> None:
         """Describe the search as it is now."""
-        now = time.monotonic()
-        if now - self.last < SECONDS_BETWEEN_LINES:
-            return
-        self.last = now
-        parts = [f"{progress.seconds:.1f} s", f"{progress.expanded:,} expanded", f"{progress.generated:,} generated"]
+        parts = []
         if progress.lower_bound is not None:
             parts.append(f"no plan costs less than {progress.lower_bound:.6g}")
         if progress.best is not None:
             parts.append(f"best plan so far {progress.best:.6g}")
-        self._write(", ".join(parts))
+        self._describe(progress, parts)
+
+    def show_top(self, progress: TopProgress) -> None:
+        """Describe a search for several plans as it is now."""
+        parts = [f"{progress.found:,} plans found", f"{progress.proven:,} proven"]
+        if progress.lower_bound is not None:
+            parts.append(f"no other costs less than {progress.lower_bound:.6g}")
+        self._describe(progress, parts)
+
+    def _describe(self, progress: Progress | TopProgress, parts: list[str]) -> None:
+        now = time.monotonic()
+        if now - self.last < SECONDS_BETWEEN_LINES:
+            return
+        self.last = now
+        effort = [f"{progress.seconds:.1f} s", f"{progress.expanded:,} expanded", f"{progress.generated:,} generated"]
+        self._write(", ".join(effort + parts))
 
     def _write(self, text: str) -> None:
         if self.visible:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
@@ -13,9 +14,12 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from statehtn.model.costs import CostDistribution
+from statehtn.display.top_plans import compact_actions
+from statehtn.effort import Statistics
+from statehtn.model.law import CostLaw
 from statehtn.model.status import Status
 from statehtn.result import Result
+from statehtn.top_result import TopPlans
 from statehtn.validate import Validation
 
 if TYPE_CHECKING:
@@ -31,6 +35,11 @@ ENDINGS = {
     Status.TIME_LIMIT: "time limit reached before a plan was found",
     Status.MEMORY_LIMIT: "memory limit reached before a plan was found",
     Status.INTERRUPTED: "interrupted before a plan was found",
+}
+TOP_STOPS = {
+    Status.TIME_LIMIT: "time limit reached",
+    Status.MEMORY_LIMIT: "memory limit reached",
+    Status.INTERRUPTED: "interrupted",
 }
 AGENTS = {"neutral": "a risk-neutral agent", "averse": "a risk-averse agent", "seeking": "a risk-seeking agent"}
 
@@ -95,12 +104,86 @@ def readable_summaries(summaries: Sequence[Summary], total: Summary) -> str:
     return f"{_render([table], wrap=False)}\n\n{explanation}"
 
 
+def readable_top_plans(result: TopPlans) -> str:
+    """Return the plans' values, their actions where they differ, what was proven, and the effort."""
+    parts: list[Table] = []
+    if result.plans:
+        parts = [_values_table(result), _actions_table(result)]
+    problem_class = f"{result.problem_class} (solver state, heuristic {result.heuristic})"
+    rows = [*_top_rows(result), ("problem class", problem_class), *_effort_rows(result.statistics)]
+    return _render([*parts, _summary(rows, STYLES.get(result.status, "bold red"))])
+
+
+def _values_table(result: TopPlans) -> Table:
+    is_neutral = result.attitude == "neutral"
+    worth = () if is_neutral else ("certainty equivalent",)
+    log10 = () if is_neutral else (_log10_label(result),)
+    headings = ("", *worth, "expected cost", "expected utility", *log10, "actions", "")
+    table = _table(*((heading, "right") for heading in headings))
+    count = "The best plan" if len(result) == 1 else f"The {len(result)} best plans"
+    if result.proven < len(result):
+        count = f"The best {len(result)} plans so far"
+    elif result.is_all:
+        count = "The only plan" if len(result) == 1 else f"All {len(result)} plans"
+    table.title = f"{count} for {_agent(result)}"
+    for ranked in result:
+        table.add_row(
+            str(ranked.rank),
+            *(() if is_neutral else (number(ranked.risk_cost),)),
+            number(ranked.expected_cost),
+            ranked.expected_utility,
+            *(() if is_neutral else (number(ranked.log10_expected_utility),)),
+            str(ranked.length),
+            "" if ranked.is_proven else "not proven",
+        )
+    return table
+
+
+def _actions_table(result: TopPlans) -> Table:
+    frame, parts = compact_actions(result.plans)
+    shared = [("all", frame)] if frame else []
+    own = [(str(rank), part) for rank, part in enumerate(parts, 1)]
+    return _summary([*shared, *own, ("", "")], "dim" if frame else "")
+
+
+def _top_rows(result: TopPlans) -> list[tuple[str, str]]:
+    others = f"has a certainty equivalent below {number(result.lower_bound)}"
+    if not result.plans:
+        if result.status is Status.UNSOLVABLE or result.lower_bound is None:
+            return [("status", ENDINGS[result.status])]
+        return [("status", ENDINGS[result.status]), ("proven", f"no plan {others}")]
+    if result.is_all:
+        return [("status", "optimal: this problem has no other plans" + _up_to_order(result))]
+    if result.stopped is None:
+        rows = [("status", "optimal: no other plan has a higher expected utility" + _up_to_order(result))]
+        gap = result.plans[-1].risk_cost - (result.lower_bound or 0)
+        return [*rows, ("proven", f"to within {gap:.1g} of the certainty equivalents (rounding)")] if gap > 0 else rows
+    rows = [("status", f"{TOP_STOPS[result.stopped]} before {result.k} plans were found and proven to be the best")]
+    if result.proven:
+        which = "these are" if result.proven == len(result) else f"the first {result.proven} are"
+        rows.append(("proven", f"{which} the best"))
+    if result.lower_bound is not None:
+        rows.append(("proven", f"no other plan {others}"))
+    return rows
+
+
+def _up_to_order(result: TopPlans) -> str:
+    return "" if result.distinct == "sequence" else ", but for these with their actions in another order"
+
+
+def _agent(result: Result | TopPlans) -> str:
+    return AGENTS[result.attitude] + ("" if result.alpha is None else f" with alpha {number(result.alpha)}")
+
+
+def _log10_label(result: Result | TopPlans) -> str:
+    return "-log10 |EU|" if result.attitude == "averse" else "log10 EU"
+
+
 def _steps_table(result: Result) -> Table:
-    agent = AGENTS[result.attitude] + ("" if result.alpha is None else f" with alpha {number(result.alpha)}")
     table = _table(
         ("", "right"), ("action", "left"), ("cost", "left"), ("expected", "right"), ("certainty equivalent", "right")
     )
-    table.title = f"Plan for {agent}"
+    table.title = f"Plan for {_agent(result)}"
     for index, priced in enumerate(result.steps, 1):
         table.add_row(
             str(index), str(priced.step), str(priced.law), number(priced.expected_cost), number(priced.risk_cost)
@@ -116,10 +199,12 @@ def _steps_table(result: Result) -> Table:
     return table
 
 
-def _range(laws: Sequence[CostDistribution]) -> str:
-    least = sum(law.outcomes[0][1] for law in laws)
-    largest = sum(law.outcomes[-1][1] for law in laws)
-    return number(least) if least == largest else f"{number(least)} to {number(largest)}"
+def _range(laws: Sequence[CostLaw]) -> str:
+    least = sum(law.least for law in laws)
+    most = sum(law.most for law in laws)
+    if math.isinf(most):
+        return f"at least {number(least)}"
+    return number(least) if least == most else f"{number(least)} to {number(most)}"
 
 
 def _summary_rows(result: Result) -> list[tuple[str, str]]:
@@ -131,11 +216,10 @@ def _summary_rows(result: Result) -> list[tuple[str, str]]:
         rows.append(("certainty equivalent", worth))
         rows.append(("expected utility", result.expected_utility or ""))
     if result.log10_expected_utility is not None:
-        label = "-log10 |EU|" if result.attitude == "averse" else "log10 EU"
-        rows.append((label, number(result.log10_expected_utility)))
+        rows.append((_log10_label(result), number(result.log10_expected_utility)))
     rows += _bound_row(result)
     rows.append(("problem class", f"{result.problem_class} (solver {result.solver}, heuristic {result.heuristic})"))
-    return rows + _effort_rows(result)
+    return rows + _effort_rows(result.statistics)
 
 
 def _bound_row(result: Result) -> list[tuple[str, str]]:
@@ -151,8 +235,7 @@ def _bound_row(result: Result) -> list[tuple[str, str]]:
     return [("proven", f"{text} (gap {gap:.4g})")]
 
 
-def _effort_rows(result: Result) -> list[tuple[str, str]]:
-    effort = result.statistics
+def _effort_rows(effort: Statistics) -> list[tuple[str, str]]:
     rows = []
     if effort.facts is not None:
         sizes = f"{effort.facts} facts, {effort.actions} actions, {effort.tasks} tasks, {effort.methods} methods"

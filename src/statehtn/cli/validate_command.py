@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import emit
+from statehtn.cli.files import emit, read_problem
 from statehtn.errors import InputError
-from statehtn.hddl import read_hddl
 from statehtn.hddl.plan_format import read_plan
 from statehtn.validate import validate
 
@@ -20,7 +19,7 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     """
     from statehtn.cli.tables import readable_validation
 
-    problem = read_hddl(options.domain, options.problem, strict=options.strict)
+    problem = read_problem(options)
     plan = read_plan(_read_text(options.plan), problem, options.plan)
     validation = validate(problem, plan)
     emit(readable_validation(validation, plan.steps))

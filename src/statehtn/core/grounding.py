@@ -10,17 +10,18 @@ import statehtn._relax as _relax
 from statehtn.core.encode import Encoding, encode
 from statehtn.errors import UnsupportedError
 from statehtn.limits import LimitReached, Limits
-from statehtn.model import CostDistribution, GroundAction, GroundEffect, GroundMethod, GroundProblem, Problem
+from statehtn.model import CostDistribution, CostLaw, GroundAction, GroundEffect, GroundMethod, GroundProblem, Problem
 from statehtn.model.cost_law import action_law, is_unconditional
 from statehtn.model.costs import Arithmetic, Expression, FunctionTerm
 from statehtn.model.problem import Action
 from statehtn.model.status import Status
 
-_STATUSES = {
+STOPPED = {
     _relax.StopReason.TimeLimit: Status.TIME_LIMIT,
     _relax.StopReason.MemoryLimit: Status.MEMORY_LIMIT,
     _relax.StopReason.Interrupted: Status.INTERRUPTED,
 }
+"""The status of a run that the core ended for a reason."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Grounding:
     problem: Problem
     encoding: Encoding
     handle: _relax.GroundProblem
-    laws: tuple[CostDistribution, ...]
+    laws: tuple[CostLaw, ...]
     switches: GroundingSwitches
 
     @property
@@ -111,6 +112,11 @@ class Grounding:
         """Return the name of a lifted task: an action's or a compound task's."""
         names = self.encoding.action_names
         return names[schema] if schema < len(names) else self.encoding.tasks[schema - len(names)]
+
+    def action_text(self, action: int) -> str:
+        """Return a ground action as it stands in a plan."""
+        names = (self.task_name(self.handle.action_schema[action]), *self.objects(self.handle.action_arguments(action)))
+        return f"({' '.join(names)})"
 
     def _action(self, action: int, schema: int) -> GroundAction:
         handle = self.handle
@@ -168,7 +174,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
     )
     if isinstance(handle, _relax.StopReason):
-        raise LimitReached(_STATUSES[handle])
+        raise LimitReached(STOPPED[handle])
     if isinstance(handle, tuple):
         action, arguments = handle
         name = " ".join((encoding.action_names[action], *(encoding.objects[number] for number in arguments)))
@@ -178,13 +184,13 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
     return Grounding(problem, encoding, handle, tuple(_laws(encoding, handle, limits)), switches)
 
 
-def _laws(encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> list[CostDistribution]:
+def _laws(encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> list[CostLaw]:
     """Return the cost law of every ground action, the same object wherever it cannot depend on the arguments."""
     free = CostDistribution.certain(0.0)
     unit_costs = encoding.problem.domain.has_unit_costs
     values = encoding.problem.function_values
-    shared: dict[int, CostDistribution] = {}
-    laws: list[CostDistribution] = []
+    shared: dict[int, CostLaw] = {}
+    laws: list[CostLaw] = []
     for number, schema in enumerate(handle.action_schema):
         if number % 1024 == 0:
             limits.check()

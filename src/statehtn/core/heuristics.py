@@ -60,7 +60,7 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
             True,
             False,
             True,
-            "decomposition-graph bound, plus landmark cuts on what methods cost beyond it, in the order of the hierarchy",
+            "decomposition-graph bound, plus landmark cuts on what methods cost beyond it, in the hierarchy's order",
         ),
         "potential-hmax": HeuristicInfo(
             _relax.HeuristicKind.PotentialHMax,
@@ -94,7 +94,7 @@ class HeuristicEvaluator:
     """A heuristic on its own, for states and networks of the caller's choice."""
 
     def __init__(self, grounding: Grounding, utility: Utility, heuristic: str) -> None:
-        self._prices = price(grounding.laws, utility)
+        self._prices = price(grounding.laws, utility, grounding.action_text)
         self._evaluator = _relax.Evaluator(grounding.handle, self._prices.units, HEURISTICS[heuristic].kind)
 
     def __call__(self, state: Iterable[int], tasks: Iterable[int]) -> float | None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from statehtn.model import CostDistribution
+from statehtn.errors import InputError
+from statehtn.model import CostLaw
 from statehtn.risk import Utility
 
 COST_BITS = 40
@@ -29,19 +30,26 @@ class Prices:
         return math.ldexp(units, -self.exponent)
 
 
-def price(laws: Iterable[CostDistribution], utility: Utility) -> Prices:
+def price(laws: Iterable[CostLaw], utility: Utility, name_of: Callable[[int], str] = str) -> Prices:
     """Price actions by their risk cost (line 6 of the paper's Algorithm 5, in the additive form of its equation 10).
 
     Args:
         laws: the cost distribution of each action; equal objects are priced once.
         utility: the agent's.
+        name_of: the name of each action, for messages.
+
+    Raises:
+        InputError: a cost has no finite price for this agent; the message names the action.
     """
     known: dict[int, float] = {}
     risk_costs: list[float] = []
     for law in laws:
         cost = known.get(id(law))
         if cost is None:
-            cost = known[id(law)] = utility.risk_cost(law)
+            try:
+                cost = known[id(law)] = utility.risk_cost(law)
+            except InputError as error:
+                raise InputError(f"the cost of {name_of(len(risk_costs))}: {error.message}") from None
         risk_costs.append(cost)
     largest = max(risk_costs, default=0.0)
     exponent = COST_BITS - math.frexp(largest)[1] if largest > 0 else 0

@@ -66,6 +66,8 @@ SEARCHES: Mapping[str, tuple[Stage, ...]] = MappingProxyType(
     }
 )
 
+TOO_DEAR = "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
+
 _STATUSES = {
     _relax.SearchStatus.Optimal: Status.OPTIMAL,
     _relax.SearchStatus.Solved: Status.SOLVED,
@@ -150,7 +152,7 @@ def find_plans(
         UnsupportedError: the costs of a plan exceed the range of fixed point, some 10^6 times the largest cost of an
             action.
     """
-    run = StagedRun(grounding, price(grounding.laws, utility), limits, progress)
+    run = StagedRun(grounding, price(grounding.laws, utility, grounding.action_text), limits, progress)
     size = max(1, grounding.handle.action_count + grounding.handle.method_count)
     for stage in SEARCHES[search]:
         if stage.algorithm is _relax.SearchAlgorithm.Greedy and run.best is not None:
@@ -209,9 +211,7 @@ class StagedRun:
                 None if self.progress is None else self.report,
             )
         except OverflowError:
-            raise UnsupportedError(
-                "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
-            ) from None
+            raise UnsupportedError(TOO_DEAR) from None
         self.done.append(result.statistics)
         self.lower_bound = self.bound_with(result.statistics)
         self.status = _STATUSES[result.status]

@@ -97,7 +97,7 @@ def _label(attributes: dict[str, Any]) -> str:
     law, value = attributes.get("law"), attributes.get("risk_cost")
     lines += str(law or attributes.get("cost") or "").split("; ")
     if law is not None and value is not None:
-        lines += [f"worth {value:.4g}"] if len(law.outcomes) > 1 else []
+        lines += [f"worth {value:.4g}"] if law.least < law.most else []
     elif value is not None:
         lines.append(f"at least {value:.4g}" if math.isfinite(value) else "impossible")
     return "\n".join(part for line in lines for part in _broken(line) if part)

@@ -52,6 +52,8 @@ def _cost_text(block: CostBlock) -> str:
     """Return a part of an action's cost in few words."""
     if block.external is not None:
         return "external"
+    if block.law is not None:
+        return str(block.law)
     outcomes = [(expression_text(probability), expression_text(cost)) for probability, cost in block.branches]
     text = ", ".join(cost if probability == "1" else f"{cost} w.p. {probability}" for probability, cost in outcomes)
     return text if block.condition == TRUE else f"{text} when {formula_text(block.condition)}"

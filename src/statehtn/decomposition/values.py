@@ -7,14 +7,14 @@ import math
 from typing import TYPE_CHECKING
 
 from statehtn.decomposition.graphs import Kind
-from statehtn.model import CostDistribution
+from statehtn.model import CostLaw
 from statehtn.risk import Utility
 
 if TYPE_CHECKING:
     import networkx as nx
 
 
-def paper_value(utility: Utility, law: CostDistribution) -> float:
+def paper_value(utility: Utility, law: CostLaw) -> float:
     """Return the value that the paper gives a primitive task (Algorithm 1, lines 3 and 5): not positive, maximised.
 
     It is the expected utility for the neutral agent, and `a log10(a alpha EU)` for the others (equation 10, with the

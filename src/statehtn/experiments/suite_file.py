@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from statehtn.core.search import SEARCHES
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import is_domain
 from statehtn.experiments.run import Grid, Instance, agents_of
+from statehtn.keyed_file import KeyedTable, read_tables
 from statehtn.query import HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
 
@@ -30,15 +29,7 @@ def read_suite(file: Path) -> list[Part]:
     Raises:
         InputError: the file cannot be read, is no TOML, or says something that makes no sense.
     """
-    try:
-        with open(file, "rb") as content:
-            tables = tomllib.load(content)
-    except OSError as error:
-        raise InputError(f"cannot read '{file}': {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{file}: this is no TOML: byte {error.start} is not UTF-8") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{file}: this is no TOML: {error}") from None
+    tables = read_tables(file)
     whole = _Table(str(file), tables)
     whole.check_keys((*GRID_KEYS, "runs"))
     runs = tables.get("runs")
@@ -99,28 +90,8 @@ def _problem_name(problem: Path, domain: Path) -> str:
     return name.with_suffix("").as_posix()
 
 
-@dataclass(frozen=True, slots=True)
-class _Table:
-    """A table of the file, and where it is; its readers raise an `InputError` for what makes no sense."""
-
-    place: str
-    values: Mapping[str, Any]
-
-    def complain(self, key: str, expected: str, found: object) -> NoReturn:
-        raise InputError(f"{self.place}: '{key}': expected {expected}, found {found!r}")
-
-    def check_keys(self, known: Iterable[str]) -> None:
-        for key in self.values:
-            if key not in known:
-                raise InputError(f"{self.place}: unknown key '{key}'; there are {', '.join(known)}")
-
-    def text(self, key: str, default: str | None = None) -> str:
-        value = self.values.get(key, default)
-        if value is None:
-            raise InputError(f"{self.place}: '{key}' is missing")
-        if not isinstance(value, str) or not value:
-            self.complain(key, "text", value)
-        return value
+class _Table(KeyedTable):
+    """A table of a suite."""
 
     def texts(self, key: str) -> list[str]:
         value = self.values.get(key)

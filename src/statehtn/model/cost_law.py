@@ -11,18 +11,12 @@ import warnings
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
-from statehtn.errors import InputError
-from statehtn.model.costs import (
-    PROBABILITY_TOLERANCE,
-    Arithmetic,
-    CostBlock,
-    CostDistribution,
-    Expression,
-    FunctionTerm,
-    FunctionValues,
-    Number,
-)
+from statehtn.errors import InputError, StateHtnError
+from statehtn.model.cost_distribution import PROBABILITY_TOLERANCE, CostDistribution
+from statehtn.model.cost_sum import CostSum
+from statehtn.model.costs import Arithmetic, CostBlock, Expression, FunctionTerm, FunctionValues, Number
 from statehtn.model.formula import TRUE
+from statehtn.model.law import CostLaw, is_of_scipy
 from statehtn.model.problem import Action
 
 LARGEST_SHOWN = 10**300  # a float can hold it
@@ -67,8 +61,8 @@ def evaluate(expression: Expression, bindings: Mapping[str, str], values: Functi
 
 def block_law(
     block: CostBlock, action: Action, arguments: tuple[str, ...], objects: tuple[str, ...], values: FunctionValues
-) -> CostDistribution:
-    """Return the distribution of one cost block of a ground action, in a state where its condition holds.
+) -> CostLaw:
+    """Return the law of one cost block of a ground action, in a state where its condition holds.
 
     Args:
         block: one of `action.costs`.
@@ -81,7 +75,8 @@ def block_law(
         InputError: a function value is missing, a cost or probability is negative, or the probabilities sum to more
             than 1; the message names the ground action.
     """
-    return _rounded(_exact_block(block, action, arguments, objects, values), action, arguments)
+    part = _block(block, action, arguments, objects, values)
+    return part if isinstance(part, CostLaw) else _rounded(part, action, arguments)
 
 
 def action_law(
@@ -90,8 +85,8 @@ def action_law(
     active_parts: Iterable[tuple[int, tuple[str, ...]]],
     values: FunctionValues,
     unit_costs: bool,
-) -> CostDistribution:
-    """Return the distribution of a ground action's whole cost: the sum of its independent parts.
+) -> CostLaw:
+    """Return the law of a ground action's whole cost: the sum of its independent parts.
 
     Args:
         action: the lifted action.
@@ -109,9 +104,18 @@ def action_law(
     due: list[tuple[CostBlock, tuple[str, ...]]] = [(block, ()) for block in action.costs if is_unconditional(block)]
     due += [(action.costs[index], objects) for index, objects in active_parts]
     law: ExactLaw = {Fraction(0): Fraction(1)}
+    others: list[CostLaw] = []
     for block, objects in due:
-        law = _convolution(law, _exact_block(block, action, arguments, objects, values))
-    return _rounded(law, action, arguments)
+        part = _block(block, action, arguments, objects, values)
+        if isinstance(part, CostLaw):
+            others.append(part)
+        else:
+            law = _convolution(law, part)
+    if not others:
+        return _rounded(law, action, arguments)
+    if law != {Fraction(0): Fraction(1)}:
+        others.append(_rounded(law, action, arguments))
+    return CostSum(tuple(others)) if len(others) > 1 else others[0]
 
 
 def is_unconditional(block: CostBlock) -> bool:
@@ -119,9 +123,12 @@ def is_unconditional(block: CostBlock) -> bool:
     return block.condition == TRUE and not block.parameters
 
 
-def _exact_block(
+def _block(
     block: CostBlock, action: Action, arguments: tuple[str, ...], objects: tuple[str, ...], values: FunctionValues
-) -> ExactLaw:
+) -> ExactLaw | CostLaw:
+    """Return one block's cost: exact outcomes, or the law where it is no list of outcomes."""
+    if block.law is not None:
+        return block.law
     if block.external is not None:
         return _external_law(block.external(*arguments), action, arguments)
     bindings = {parameter.name: name for parameter, name in zip(action.parameters, arguments, strict=True)}
@@ -162,8 +169,15 @@ def _completed(law: ExactLaw, block: CostBlock, action: Action, arguments: tuple
     return law if total == 1 else {cost: probability / total for cost, probability in law.items()}
 
 
-def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) -> ExactLaw:
+def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) -> ExactLaw | CostLaw:
     """Read what a callable returned. A float means the decimal that it prints as, so that equal costs stay equal."""
+    if is_of_scipy(answer):
+        try:
+            answer = CostDistribution.from_scipy(answer)
+        except StateHtnError as error:
+            raise type(error)(f"the external cost of {_name(action, arguments)}: {error.message}") from None
+    if isinstance(answer, CostLaw) and not isinstance(answer, CostDistribution):
+        return answer
     outcomes = answer.outcomes if isinstance(answer, CostDistribution) else ((1.0, answer),)
     law: ExactLaw = {}
     for probability, cost in outcomes:

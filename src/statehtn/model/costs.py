@@ -1,76 +1,23 @@
-"""Costs of actions: distributions of ground actions, and the expressions that lifted actions state them by.
+"""Costs of lifted actions, as they are stated: by expressions, laws and Python callables.
 
 Costs are positive and minimised, in the domain's own unit (hours, say). Numbers of the input are exact fractions.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Rational, Real
 from typing import cast
 
-from statehtn.errors import InputError, Place, UsageError
+from statehtn.errors import Place, UsageError
+from statehtn.model.cost_distribution import PROBABILITY_TOLERANCE as PROBABILITY_TOLERANCE
+from statehtn.model.cost_distribution import CostDistribution as CostDistribution
 from statehtn.model.formula import TRUE, Formula
+from statehtn.model.law import CostLaw
 from statehtn.model.types import Parameter
-
-PROBABILITY_TOLERANCE = 1e-9
-
-
-@dataclass(frozen=True, slots=True)
-class CostDistribution:
-    """The probability distribution of an action's cost: pairs (probability, cost), sorted by cost.
-
-    Probabilities are positive and sum to 1 within 1e-9; costs are finite, at least 0 and distinct.
-    Make one by `CostDistribution.of` (which merges and checks) or `CostDistribution.certain`.
-    Source: the `c(o)` of the paper's Definition 4.4 (cost-variable operator), with the sign turned.
-    """
-
-    outcomes: tuple[tuple[float, float], ...]
-
-    @staticmethod
-    def certain(cost: float) -> CostDistribution:
-        """Return the distribution of a cost that is known."""
-        return CostDistribution.of([(1.0, cost)])
-
-    @staticmethod
-    def of(outcomes: Iterable[tuple[float, float]]) -> CostDistribution:
-        """Merge outcomes of equal cost, drop impossible ones, and check the rest.
-
-        Raises:
-            InputError: a probability is negative or not finite, a cost is negative or not finite,
-                or the probabilities do not sum to 1.
-        """
-        merged: dict[float, float] = {}
-        for probability, cost in outcomes:
-            if not (math.isfinite(probability) and probability >= 0):
-                raise InputError(f"a probability must be between 0 and 1, found {probability:g}")
-            if not (math.isfinite(cost) and cost >= 0):
-                raise InputError(f"a cost must be a finite number and at least 0, found {cost:g}")
-            if probability > 0:
-                merged[cost] = merged.get(cost, 0.0) + probability
-        total = math.fsum(merged.values())
-        if abs(total - 1) > PROBABILITY_TOLERANCE:
-            raise InputError(f"the probabilities of a cost must sum to 1, found {total:.12g}")
-        return CostDistribution(tuple((merged[cost], float(cost)) for cost in sorted(merged)))
-
-    @property
-    def mean(self) -> float:
-        """The expected cost, in the domain's unit."""
-        return math.fsum(probability * cost for probability, cost in self.outcomes)
-
-    def convolve(self, other: CostDistribution) -> CostDistribution:
-        """Return the distribution of the sum of two independent costs."""
-        return CostDistribution.of((p * q, c + d) for p, c in self.outcomes for q, d in other.outcomes)
-
-    def __str__(self) -> str:
-        if len(self.outcomes) == 1:
-            return f"{self.outcomes[0][1]:g}"
-        return ", ".join(f"{cost:g} w.p. {probability:g}" for probability, cost in self.outcomes)
-
 
 Amount = float | Fraction | Decimal
 """A number as Python has it; numbers of numpy will do, too."""
@@ -154,7 +101,7 @@ class Arithmetic(Computable):
 
 
 Expression = Number | FunctionTerm | Arithmetic
-ExternalCost = Callable[..., "float | CostDistribution"]
+ExternalCost = Callable[..., "float | CostLaw"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +117,7 @@ class CostBlock:
         external: a Python callable that gives the cost instead of the branches; it gets the action's arguments (object
             names).
         place: where the block stands in a file, for errors that only show in a ground action; None where there is none.
+        law: the cost where no list of outcomes states it, instead of the branches.
     """
 
     branches: tuple[tuple[Expression, Expression], ...]
@@ -177,6 +125,14 @@ class CostBlock:
     parameters: tuple[Parameter, ...] = ()
     external: ExternalCost | None = None
     place: Place | None = field(default=None, compare=False, repr=False)
+    law: CostLaw | None = None
+
+
+def block_of(law: CostLaw) -> CostBlock:
+    """Return a law as a cost that is always due: by its outcomes where it is a list of them."""
+    if not isinstance(law, CostDistribution):
+        return CostBlock((), law=law)
+    return CostBlock(tuple((Number(exact(probability)), Number(exact(cost))) for probability, cost in law.outcomes))
 
 
 FunctionValues = Mapping[tuple[str, ...], Fraction]

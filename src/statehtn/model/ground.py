@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from statehtn.model.costs import CostDistribution
+from statehtn.model.law import CostLaw
 from statehtn.model.problem import Fact
 
 
@@ -36,7 +36,7 @@ class GroundAction:
     precondition: frozenset[int]
     negative_precondition: frozenset[int]
     effects: tuple[GroundEffect, ...]
-    cost: CostDistribution
+    cost: CostLaw
     is_artificial: bool = False
 
     def is_applicable(self, state: frozenset[int]) -> bool:

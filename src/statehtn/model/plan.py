@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from statehtn.errors import UsageError
+from statehtn.model.law import CostLaw
+
 if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
     from statehtn.model.decomposition_tree import DecompositionTree
 
 
@@ -51,11 +57,14 @@ class Plan:
 
     `roots` has one entry for each task of the initial network, in its order, as in `Decomposition.children`.
     `root_bindings` binds the initial network's parameters (empty where there are none, None where unknown).
+    `costs` has the law of each step's cost in the state it is executed in; None where they are not known, as in a plan
+    that was read from a file. Plans that only differ in it are equal.
     """
 
     steps: tuple[Step, ...] = ()
     roots: tuple[int | Decomposition, ...] = ()
     root_bindings: tuple[str, ...] | None = ()
+    costs: tuple[CostLaw, ...] | None = field(default=None, compare=False, repr=False)
 
     @property
     def decomposition(self) -> DecompositionTree:
@@ -69,3 +78,49 @@ class Plan:
         for root in self.roots:
             if isinstance(root, Decomposition):
                 yield from root.walk()
+
+    def with_costs(self, costs: Sequence[CostLaw]) -> Plan:
+        """Return the plan with the law of each step's cost, such as `statehtn.validate(problem, plan).costs`.
+
+        Raises:
+            UsageError: there is not one for each step.
+        """
+        if len(costs) != len(self.steps):
+            raise UsageError(f"a plan of {len(self.steps)} steps needs a cost for each, found {len(costs)}")
+        return replace(self, costs=tuple(costs))
+
+    def cost_distribution(self) -> CostLaw:
+        """Return the law of the plan's total cost: positive, in the domain's unit; the actions' are independent.
+
+        It is a `CostDistribution`, exact, where the actions' costs are lists of outcomes and their sum has not more
+        than 20,000 different values; the action's own law where only one of them costs anything; otherwise a
+        `TotalCost` on a grid that knows its error. See `statehtn.model.total_cost`.
+
+        Raises:
+            UsageError: the plan does not know what its steps cost.
+        """
+        from statehtn.model.total_cost import total_cost
+
+        return total_cost(self._known_costs())
+
+    def simulate(self, runs: int, seed: int) -> NDArray[float64]:
+        """Return the total costs of so many independent runs of the plan, drawn by numpy's default generator.
+
+        Raises:
+            UsageError: the plan does not know what its steps cost, or there is not at least one run.
+        """
+        import numpy
+
+        from statehtn.model.cost_sum import sampled_sum
+
+        if runs < 1:
+            raise UsageError(f"the number of runs must be at least 1, found {runs}")
+        return sampled_sum(self._known_costs(), runs, numpy.random.default_rng(seed))
+
+    def _known_costs(self) -> tuple[CostLaw, ...]:
+        if self.costs is None:
+            raise UsageError(
+                "this plan does not know what its steps cost; plan.with_costs(statehtn.validate(problem, plan).costs) "
+                "returns one that does"
+            )
+        return self.costs

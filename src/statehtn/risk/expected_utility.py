@@ -6,12 +6,13 @@ import itertools
 import math
 from collections.abc import Iterable, Sequence
 
-from statehtn.model.costs import CostDistribution
+from statehtn.model.cost_distribution import CostDistribution
+from statehtn.model.law import CostLaw
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.utility import DIGITS, Utility
 
 
-def plan_risk_cost(laws: Iterable[CostDistribution], utility: Utility) -> float:
+def plan_risk_cost(laws: Iterable[CostLaw], utility: Utility) -> float:
     """Return the certainty-equivalent cost of a plan: the sum of those of its actions, positive, in the domain's unit.
 
     Source: the logarithm of the paper's equation 5 (Theorem 1), or its equation 7 for the neutral attitude.
@@ -19,17 +20,17 @@ def plan_risk_cost(laws: Iterable[CostDistribution], utility: Utility) -> float:
     return math.fsum(utility.risk_cost(law) for law in laws)
 
 
-def plan_expected_cost(laws: Iterable[CostDistribution]) -> float:
+def plan_expected_cost(laws: Iterable[CostLaw]) -> float:
     """Return the expected cost of a plan, positive, in the domain's unit."""
     return plan_risk_cost(laws, Neutral())
 
 
-def expected_utility(laws: Iterable[CostDistribution], utility: Utility) -> float:
+def expected_utility(laws: Iterable[CostLaw], utility: Utility) -> float:
     """Return the expected utility of a plan; infinite or 0 where a float cannot hold it."""
     return utility.utility(plan_risk_cost(laws, utility))
 
 
-def expected_utility_text(laws: Iterable[CostDistribution], utility: Utility, digits: int = DIGITS) -> str:
+def expected_utility_text(laws: Iterable[CostLaw], utility: Utility, digits: int = DIGITS) -> str:
     """Return the expected utility of a plan as a decimal number of any size."""
     return utility.expected_utility_text(plan_risk_cost(laws, utility), digits)
 

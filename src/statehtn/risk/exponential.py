@@ -12,12 +12,9 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 
 from statehtn.errors import UsageError
-from statehtn.model.costs import CostDistribution
-from statehtn.risk.neutral import Neutral
+from statehtn.model.law import CostLaw
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
 
-LARGEST_EXPONENT = 700.0  # below it, exp and expm1 of a float do not overflow
-LEAST_CURVATURE = 1e-17  # a smaller alpha * (range of the cost) changes no digit of the mean
 DOUBLE_DIGITS = 15
 _MANY_DIGITS = Context(prec=60)
 
@@ -58,24 +55,16 @@ class Exponential:
         """A product over the actions."""
         return PlanUtility.PRODUCT
 
-    def risk_cost(self, law: CostDistribution) -> float:
+    def risk_cost(self, law: CostLaw) -> float:
         """Return the certainty-equivalent cost.
 
         It is `ln E[e^(alpha C)] / alpha` for an averse agent and `-ln E[e^(-alpha C)] / alpha` for a seeking one: at
         least, or at most, the expected cost, to which it tends as alpha tends to 0.
+
+        Raises:
+            InputError: it is infinite, or cannot be computed; never for a list of outcomes.
         """
-        least, largest = law.outcomes[0][1], law.outcomes[-1][1]
-        mean = Neutral().risk_cost(law)
-        curvature = self.alpha * (largest - least)
-        if curvature < LEAST_CURVATURE:
-            return mean
-        if not math.isfinite(curvature):
-            return largest if self.attitude == Attitude.AVERSE else least
-        sign = 1.0 if self.attitude == Attitude.AVERSE else -1.0
-        exponents = [sign * (self.alpha * (cost - least)) for _, cost in law.outcomes]
-        value = least + sign * _log_mean_exp([probability for probability, _ in law.outcomes], exponents) / self.alpha
-        # Rounding must not carry the value across its bounds.
-        return min(max(value, mean), largest) if sign > 0 else min(max(value, least), mean)
+        return law.exponential_mean(self.alpha if self.attitude == Attitude.AVERSE else -self.alpha)
 
     def utility(self, cost: float) -> float:
         """Return the utility of a certain cost: averse `-e^(alpha C) / alpha`, seeking `e^(-alpha C) / alpha`."""
@@ -109,19 +98,6 @@ class Exponential:
             _MANY_DIGITS.log10(Decimal(self.alpha)),
         )
         return ("-" if averse else "") + _power_of_ten(log10_size, max(1, min(digits, carried)))
-
-
-def _log_mean_exp(probabilities: list[float], exponents: list[float]) -> float:
-    """Return `ln(sum p e^x / sum p)` for exponents of one sign, one of them 0, without overflow or cancellation."""
-    total = math.fsum(probabilities)
-    if max(exponents) <= LARGEST_EXPONENT:
-        # All terms have one sign, so the sum is exact to rounding however small it is; so is log1p away from -1.
-        growth = math.fsum(p * math.expm1(x) for p, x in zip(probabilities, exponents, strict=True)) / total
-        if growth > -0.5:
-            return math.log1p(growth)
-    logs = [math.log(p) + x for p, x in zip(probabilities, exponents, strict=True)]
-    largest = max(logs)
-    return largest + math.log(math.fsum(math.exp(value - largest) for value in logs) / total)
 
 
 def _power_of_ten(log10: Decimal, digits: int) -> str:

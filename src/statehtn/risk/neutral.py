@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from statehtn.model.costs import CostDistribution
+from statehtn.model.law import CostLaw
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
 
 
@@ -40,12 +40,10 @@ class Neutral:
         """A sum over the actions."""
         return PlanUtility.SUM
 
-    def risk_cost(self, law: CostDistribution) -> float:
+    def risk_cost(self, law: CostLaw) -> float:
         """Return the expected cost."""
-        least, largest = law.outcomes[0][1], law.outcomes[-1][1]
-        return min(
-            max(law.mean, least), largest
-        )  # rounding, or probabilities that sum to 1 + 1e-10, must not leave the range
+        # Rounding, or probabilities that sum to 1 + 1e-10, must not leave the range.
+        return min(max(law.mean, law.least), law.most)
 
     def utility(self, cost: float) -> float:
         """Return `-cost`."""

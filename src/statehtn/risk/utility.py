@@ -9,7 +9,7 @@ from __future__ import annotations
 from enum import IntEnum, StrEnum
 from typing import Protocol
 
-from statehtn.model.costs import CostDistribution
+from statehtn.model.law import CostLaw
 
 DIGITS = 10
 """Significant digits of a printed expected utility: enough for every value in the paper's tables."""
@@ -73,8 +73,12 @@ class Utility(Protocol):
         """How the plan's expected utility is defined."""
         ...
 
-    def risk_cost(self, law: CostDistribution) -> float:
-        """Return the certainty-equivalent cost; it lies between the least and the largest outcome."""
+    def risk_cost(self, law: CostLaw) -> float:
+        """Return the certainty-equivalent cost; it lies between the least and the largest cost that is possible.
+
+        Raises:
+            InputError: it is infinite.
+        """
         ...
 
     def utility(self, cost: float) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from statehtn.model.cost_law import action_law, is_unconditional
-from statehtn.model.costs import CostDistribution
+from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan, Step
 from statehtn.model.problem import Action, Fact
 from statehtn.model.types import Parameter
@@ -19,7 +19,7 @@ class Execution:
     """The states of a plan's run, the costs of its steps and what is wrong with it."""
 
     history: History
-    costs: tuple[CostDistribution, ...]
+    costs: tuple[CostLaw, ...]
     reasons: tuple[str, ...]
 
 
@@ -31,7 +31,7 @@ def execute(plan: Plan, world: World) -> Execution:
     """
     problem = world.problem
     history = History(problem.initial_state)
-    costs: list[CostDistribution] = []
+    costs: list[CostLaw] = []
     reasons: list[str] = []
     for step in plan.steps:
         action = problem.domain.actions.get(step.action)
@@ -90,7 +90,7 @@ def _effects(action: Action, bindings: Bindings, state: State, world: World) -> 
             yield (effect.atom.predicate, *substitute(effect.atom.arguments, extended)), effect.positive
 
 
-def _law(action: Action, step: Step, state: State, world: World) -> CostDistribution:
+def _law(action: Action, step: Step, state: State, world: World) -> CostLaw:
     bindings = bindings_of(action, step)
     parts = [
         (index, tuple(extended[parameter.name] for parameter in block.parameters))

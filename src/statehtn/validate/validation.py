@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from statehtn.model.costs import CostDistribution
+from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.risk import Utility, plan_expected_cost, plan_risk_cost
@@ -25,7 +25,7 @@ class Validation:
     """
 
     reasons: tuple[str, ...]
-    costs: tuple[CostDistribution, ...]
+    costs: tuple[CostLaw, ...]
 
     @property
     def valid(self) -> bool:

@@ -1,0 +1,66 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/vector.h>
+
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "python_limits.hpp"
+#include "relax/top_plans.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+relax::TopPlansResult top_plans(const relax::GroundProblem& problem, std::vector<relax::Cost> costs,
+                                std::vector<std::optional<relax::ActionLabel>> labels,
+                                const relax::TopPlansOptions& options, std::optional<double> seconds,
+                                std::optional<std::size_t> memory_bytes, const nb::object& progress) {
+    if (costs.size() != problem.action_count() || labels.size() != problem.action_count()) {
+        throw std::invalid_argument("there must be one cost and one label for each action");
+    }
+    if (!relax::is_admissible(options.search.heuristic)) {
+        throw std::invalid_argument("the heuristic must be admissible");
+    }
+    relax::TopPlansStatistics statistics;
+    std::function<void()> watch;
+    if (!progress.is_none()) {
+        watch = [&] { progress(statistics); };
+    }
+    relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
+    const nb::gil_scoped_release no_gil;
+    return relax::TopPlans(problem, std::move(costs), std::move(labels), options, limits, statistics).run();
+}
+
+}  // namespace
+
+void bind_top_plans(nb::module_& module) {
+    nb::enum_<relax::Distinct>(module, "Distinct")
+        .value("Sequence", relax::Distinct::Sequence)
+        .value("Multiset", relax::Distinct::Multiset);
+
+    nb::class_<relax::TopPlansOptions>(module, "TopPlansOptions")
+        .def(nb::init<>())
+        .def_rw("count", &relax::TopPlansOptions::count)
+        .def_rw("distinct", &relax::TopPlansOptions::distinct)
+        .def_rw("limits_ways", &relax::TopPlansOptions::limits_ways)
+        .def_rw("search", &relax::TopPlansOptions::search);
+
+    nb::class_<relax::TopPlansStatistics, relax::SearchStatistics>(module, "TopPlansStatistics")
+        .def_ro("found", &relax::TopPlansStatistics::found)
+        .def_ro("proven", &relax::TopPlansStatistics::proven);
+
+    nb::class_<relax::TopPlansResult>(module, "TopPlansResult")
+        .def_ro("stop", &relax::TopPlansResult::stop)
+        .def_ro("is_all", &relax::TopPlansResult::is_all)
+        .def_ro("statistics", &relax::TopPlansResult::statistics)
+        .def_ro("plans", &relax::TopPlansResult::plans);
+
+    module.def("top_plans", &top_plans, "problem"_a, "costs"_a, "labels"_a, "options"_a, "seconds"_a = nb::none(),
+               "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
+}

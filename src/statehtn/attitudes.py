@@ -1,0 +1,260 @@
+"""What agents of several attitudes do with one problem, where their plans part, and what each would cost the others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from typing import Any
+
+from statehtn.display.comparison import ComparedPlan, Reason, comparison_html, comparison_text
+from statehtn.errors import UsageError
+from statehtn.model.problem import Problem
+from statehtn.model.status import Status
+from statehtn.planner import ProgressCallback, plan
+from statehtn.result import PricedStep, Result
+from statehtn.risk import Attitude, plan_risk_cost
+
+Cells = tuple["PricedStep | None", ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A place where one plan has other actions than another, and what both cost an agent there.
+
+    Args:
+        own: the actions of the one plan; may be empty.
+        other: those of the other plan in their place; may be empty.
+        own_cost: the certainty equivalent of `own`, in the domain's unit.
+        other_cost: the same agent's certainty equivalent of `other`.
+    """
+
+    own: tuple[PricedStep, ...]
+    other: tuple[PricedStep, ...]
+    own_cost: float
+    other_cost: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the difference as plain data; actions as they stand in a plan."""
+        return {
+            "own": _names(self.own),
+            "other": _names(self.other),
+            "own_risk_cost": self.own_cost,
+            "other_risk_cost": self.other_cost,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class AttitudeComparison:
+    """The plans of several agents for one problem; prints them side by side, with what each would cost the others.
+
+    Args:
+        results: one for each agent, from the most averse to the most seeking.
+    """
+
+    results: tuple[Result, ...]
+
+    @property
+    def agents(self) -> tuple[str, ...]:
+        """The names of the agents, such as `averse 0.9`."""
+        return tuple(
+            result.attitude if result.alpha is None else f"{result.attitude} {result.alpha:g}"
+            for result in self.results
+        )
+
+    @property
+    def risk_costs(self) -> tuple[tuple[float | None, ...], ...]:
+        """What the plan of each agent (first index) costs each agent (second): certainty equivalents.
+
+        None where there is no plan. No value of a column is below the one on the diagonal, if that plan is optimal.
+        """
+        return tuple(
+            tuple(self._price(result.steps, other) if result else None for other in self.results)
+            for result in self.results
+        )
+
+    @property
+    def rows(self) -> tuple[Cells, ...]:
+        """The plans side by side: in each row a step of each plan, or None; what plans share stands in one row.
+
+        Steps are the same if their action and the law of their cost are.
+        """
+        rows: list[list[PricedStep | None]] = []
+        for width, result in enumerate(self.results):
+            rows = _merged(rows, result.steps, width)
+        return tuple(tuple(row) for row in rows)
+
+    def differences(self, agent: int, other: int) -> tuple[Difference, ...]:
+        """Return where the plan of an agent parts from another's, priced by the first; indices into `results`.
+
+        The differences between the costs add up to the difference between the prices of the two plans.
+        """
+        mine, its = self.results[agent], self.results[other]
+        if not (mine and its):
+            return ()
+        matcher = SequenceMatcher(None, _tokens(mine.steps), _tokens(its.steps), autojunk=False)
+        found = []
+        for tag, start, end, other_start, other_end in matcher.get_opcodes():
+            if tag != "equal":
+                own, others = tuple(mine.steps[start:end]), tuple(its.steps[other_start:other_end])
+                found.append(Difference(own, others, self._price(own, mine), self._price(others, mine)))
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the object that `statehtn compare-attitudes --json` prints."""
+        pairs = [(agent, other) for agent in range(len(self.results)) for other in range(len(self.results))]
+        prices = self.risk_costs
+        return {
+            "agents": [{"attitude": result.attitude, "alpha": result.alpha} for result in self.results],
+            "results": [result.to_dict() for result in self.results],
+            "risk_costs": [list(row) for row in prices],
+            "differences": [
+                {
+                    "agent": agent,
+                    "other": other,
+                    "risk_cost": prices[agent][agent],
+                    "other_risk_cost": prices[other][agent],
+                    "parts": [part.to_dict() for part in parts],
+                }
+                for agent, other in pairs
+                if (parts := self.differences(agent, other))
+            ],
+        }
+
+    def __str__(self) -> str:
+        return comparison_text(self._plans(), *self._columns(), self._reasons())
+
+    def _repr_html_(self) -> str:
+        return comparison_html(self._plans(), *self._columns(), self._reasons())
+
+    def _price(self, steps: Sequence[PricedStep], agent: Result) -> float:
+        return plan_risk_cost((priced.law for priced in steps), agent.utility)
+
+    def _plans(self) -> list[ComparedPlan]:
+        return [
+            ComparedPlan(
+                agent,
+                str(result.status),
+                math.fsum(priced.law.least for priced in result.steps) if result else None,
+                result.expected_cost,
+                math.fsum(priced.law.most for priced in result.steps) if result else None,
+                prices,
+            )
+            for agent, result, prices in zip(self.agents, self.results, self.risk_costs, strict=True)
+        ]
+
+    def _columns(self) -> tuple[list[str], list[tuple[bool, list[str]]]]:
+        """Return a head for each plan that differs from the others, and the rows: shared by all, and as text."""
+        groups: dict[tuple[object, ...], list[int]] = {}
+        for index, result in enumerate(self.results):
+            if result:
+                groups.setdefault(tuple(_tokens(result.steps)), []).append(index)
+        heads = [", ".join(self.agents[index] for index in group) for group in groups.values()]
+        shown = [group[0] for group in groups.values()]
+        rows = []
+        for row in self.rows:
+            cells = [row[index] for index in shown]
+            texts = ["" if priced is None else str(priced.step) for priced in cells]
+            rows.append((len(set(_tokens(cells))) == 1, texts))
+        return heads, rows
+
+    def _reasons(self) -> list[Reason]:
+        """Say for each agent why it does not do what its neighbours do."""
+        last = len(self.results) - 1
+        pairs = [(agent, other) for agent in range(last + 1) for other in (agent - 1, agent + 1) if 0 <= other <= last]
+        return [
+            self._reason(agent, other, parts) for agent, other in pairs if (parts := self.differences(agent, other))
+        ]
+
+    def _reason(self, agent: int, other: int, parts: Sequence[Difference]) -> Reason:
+        mine, its = self.results[agent], self.results[other]
+        return Reason(
+            self.agents[agent],
+            self.agents[other],
+            self._price(mine.steps, mine),
+            self._price(its.steps, mine),
+            [(_names(part.own), part.own_cost, _names(part.other), part.other_cost) for part in parts],
+        )
+
+
+def compare_attitudes(
+    problem: Problem,
+    alpha: float | Iterable[float] = 1.0,
+    *,
+    attitudes: Iterable[Attitude | str] = tuple(Attitude),
+    solver: str = "state",
+    heuristic: str | None = None,
+    search: str = "astar",
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    progress: ProgressCallback | None = None,
+) -> AttitudeComparison:
+    """Plan for agents of several attitudes, and compare what they do.
+
+    Args:
+        problem: a problem, such as `read_hddl` returns.
+        alpha: how much averse and seeking agents care about risk, per unit of cost; several for as many agents.
+        attitudes: some of averse, neutral and seeking.
+        solver: as for `plan`, for each agent; so are `heuristic`, `search`, the limits and `progress`.
+
+    An agent without a plan has a result that says why. After an interruption no further agent is asked.
+
+    Raises:
+        UsageError: an argument is out of its range, or there are no agents.
+        InputError, UnsupportedError: as `plan`.
+    """
+    alphas = sorted({float(alpha)} if isinstance(alpha, int | float) else set(map(float, alpha)))
+    try:
+        wanted = {Attitude(attitude) for attitude in attitudes}
+    except ValueError as error:
+        raise UsageError(f"{error}; there are {', '.join(Attitude)}") from None
+    agents: list[tuple[Attitude, float | None]] = []
+    if Attitude.AVERSE in wanted:
+        agents += [(Attitude.AVERSE, value) for value in reversed(alphas)]
+    if Attitude.NEUTRAL in wanted:
+        agents.append((Attitude.NEUTRAL, None))
+    if Attitude.SEEKING in wanted:
+        agents += [(Attitude.SEEKING, value) for value in alphas]
+    if not agents:
+        raise UsageError("there are no agents to compare; give an attitude, and alpha for averse and seeking ones")
+    results = []
+    for attitude, value in agents:
+        results.append(
+            plan(
+                problem,
+                attitude=attitude,
+                alpha=value,
+                solver=solver,
+                heuristic=heuristic,
+                search=search,
+                time_limit=time_limit,
+                memory_limit=memory_limit,
+                progress=progress,
+            )
+        )
+        if results[-1].status is Status.INTERRUPTED:
+            break
+    return AttitudeComparison(tuple(results))
+
+
+def _names(steps: Iterable[PricedStep]) -> list[str]:
+    return [str(priced.step) for priced in steps]
+
+
+def _tokens(steps: Iterable[PricedStep | None]) -> list[object]:
+    return [None if priced is None else (priced.step, priced.law) for priced in steps]
+
+
+def _merged(
+    rows: list[list[PricedStep | None]], steps: Sequence[PricedStep], width: int
+) -> list[list[PricedStep | None]]:
+    """Add a column with the steps of one more plan to rows of so many columns."""
+    latest = [next(priced for priced in reversed(row) if priced is not None) for row in rows]
+    found: list[list[PricedStep | None]] = []
+    matcher = SequenceMatcher(None, _tokens(latest), _tokens(steps), autojunk=False)
+    for _, start, end, new_start, new_end in matcher.get_opcodes():
+        for offset in range(max(end - start, new_end - new_start)):
+            row = rows[start + offset] if start + offset < end else [None] * width
+            found.append([*row, steps[new_start + offset] if new_start + offset < new_end else None])
+    return found

@@ -1,0 +1,179 @@
+"""Tables of costs from TOML and JSON files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from statehtn.build.cost_table import CostEntry, CostTable
+from statehtn.errors import InputError, StateHtnError, UsageError
+from statehtn.keyed_file import KeyedTable, read_tables
+from statehtn.model import CostDistribution, CostLaw
+
+OWN_KEYS = ("action", "arguments")
+
+
+def read_costs(file: str | os.PathLike[str]) -> CostTable:
+    """Read costs for the actions of a domain from a TOML file, or a JSON file if its name ends in `.json`.
+
+    The file has a list `costs` of tables: `action`, `arguments` where only some instances are meant, and one of
+    `cost`, `outcomes`, `samples`, `counts` (with `prior`) and `distribution` (with `parameters`). See docs/costs.md.
+
+    Raises:
+        InputError: the file cannot be read, or says something that makes no sense; the message names file, entry and
+            key. Names are only checked by `CostTable.apply`.
+        UsageError: a `distribution` needs scipy, which is not installed.
+    """
+    path = Path(file)
+    whole = KeyedTable(str(path), read_tables(path))
+    whole.check_keys(("costs",))
+    tables = whole.values.get("costs")
+    if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
+        whole.complain("costs", "a list of tables, such as [[costs]] in TOML", tables)
+    entries = []
+    for number, values in enumerate(tables, 1):
+        table = KeyedTable(f"{path}: entry {number} of 'costs'", values)
+        entries.append(
+            CostEntry(table.place, table.text("action").lower(), _arguments(table), _law(table, path.parent))
+        )
+    return CostTable(tuple(entries))
+
+
+def _arguments(table: KeyedTable) -> tuple[str, ...] | None:
+    given = table.values.get("arguments")
+    if given is None:
+        return None
+    if not isinstance(given, list) or not all(isinstance(name, str) and name for name in given):
+        table.complain("arguments", "a list of objects' names, or * for any", given)
+    return tuple(name.lower() for name in given)
+
+
+def _law(table: KeyedTable, folder: Path) -> CostLaw:
+    kinds = [kind for kind in LAWS if kind in table.values]
+    if len(kinds) != 1:
+        raise InputError(
+            f"{table.place}: expected one of {', '.join(LAWS)}, found {' and '.join(kinds) if kinds else 'none'}"
+        )
+    kind = kinds[0]
+    make, also = LAWS[kind]
+    table.check_keys((*OWN_KEYS, kind, *also))
+    try:
+        return make(table, folder)
+    except UsageError:
+        raise
+    except StateHtnError as error:
+        if error.message.startswith(table.place):
+            raise
+        raise type(error)(f"{table.place}: '{kind}': {error.message}") from None
+
+
+def _certain(table: KeyedTable, _: Path) -> CostLaw:
+    return CostDistribution.certain(_number(table, "cost", table.values["cost"]))
+
+
+def _outcomes(table: KeyedTable, _: Path) -> CostLaw:
+    return CostDistribution.of(_pairs(table, "outcomes", "probability, cost"))
+
+
+def _samples(table: KeyedTable, folder: Path) -> CostLaw:
+    given = table.values["samples"]
+    if isinstance(given, str):
+        return CostDistribution.from_samples(_numbers_in(table, folder / given))
+    if not isinstance(given, list):
+        table.complain("samples", "a list of numbers, or the name of a file with numbers", given)
+    return CostDistribution.from_samples([_number(table, "samples", value) for value in given])
+
+
+def _counts(table: KeyedTable, _: Path) -> CostLaw:
+    counts = _by_cost(table, "counts", "count, cost")
+    prior = table.values.get("prior", 1)
+    weights = _by_cost(table, "prior", "weight, cost") if isinstance(prior, list) else _number(table, "prior", prior)
+    return CostDistribution.from_counts(counts, weights)
+
+
+def _distribution(table: KeyedTable, _: Path) -> CostLaw:
+    try:
+        import scipy.stats as families
+    except ImportError:
+        raise UsageError(
+            f"{table.place}: 'distribution' needs the package 'scipy': pip install 'statehtn[scipy]'"
+        ) from None
+    name = table.text("distribution")
+    family = getattr(families, name, None)
+    if not isinstance(family, families.rv_continuous | families.rv_discrete):
+        table.complain("distribution", "the name of a distribution of scipy.stats, such as 'gamma'", name)
+    given = table.values.get("parameters", {})
+    if not isinstance(given, dict):
+        table.complain("parameters", "a table of numbers", given)
+    shapes = [shape.strip() for shape in (family.shapes or "").split(",") if shape.strip()]
+    known = [*shapes, "loc", *(["scale"] if isinstance(family, families.rv_continuous) else [])]
+    for key, value in given.items():
+        if key not in known:
+            table.complain("parameters", f"some of {', '.join(known)} for '{name}'", key)
+        _number(table, "parameters", value)
+    missing = [shape for shape in shapes if shape not in given]
+    if missing:
+        raise InputError(f"{table.place}: 'parameters': '{name}' needs {', '.join(missing)}")
+    return CostDistribution.from_scipy(family(**given))
+
+
+LAWS: Mapping[str, tuple[Callable[[KeyedTable, Path], CostLaw], tuple[str, ...]]] = MappingProxyType(
+    {
+        "cost": (_certain, ()),
+        "outcomes": (_outcomes, ()),
+        "samples": (_samples, ()),
+        "counts": (_counts, ("prior",)),
+        "distribution": (_distribution, ("parameters",)),
+    }
+)
+"""For every key that states a law what reads it, and the keys that go with it."""
+
+
+def _number(table: KeyedTable, key: str, value: Any) -> float:
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        table.complain(key, "a number" if key != "parameters" else "numbers", value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise InputError(f"{table.place}: '{key}': a number of {len(str(value))} digits is too large") from None
+
+
+def _pairs(table: KeyedTable, key: str, what: str) -> list[tuple[float, float]]:
+    given = table.values[key]
+    if not isinstance(given, list) or not given:
+        table.complain(key, f"a list of pairs [{what}]", given)
+    for pair in given:
+        if not isinstance(pair, list) or len(pair) != 2:
+            table.complain(key, f"a list of pairs [{what}]", pair)
+    number = partial(_number, table, key)
+    return [(number(first), number(second)) for first, second in given]
+
+
+def _by_cost(table: KeyedTable, key: str, what: str) -> dict[float, float]:
+    found: dict[float, float] = {}
+    for weight, cost in _pairs(table, key, what):
+        if cost in found:
+            table.complain(key, "each cost once", cost)
+        found[cost] = weight
+    return found
+
+
+def _numbers_in(table: KeyedTable, path: Path) -> list[float]:
+    """Read numbers that are separated by white space, commas or semicolons."""
+    try:
+        words = path.read_text(encoding="utf-8").replace(",", " ").replace(";", " ").split()
+    except OSError as error:
+        raise InputError(f"{table.place}: 'samples': cannot read '{path}': {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{table.place}: 'samples': '{path}' is no text file") from None
+    numbers = []
+    for word in words:
+        try:
+            numbers.append(float(word))
+        except ValueError:
+            raise InputError(f"{table.place}: 'samples': expected numbers in '{path}', found '{word}'") from None
+    return numbers

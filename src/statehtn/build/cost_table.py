@@ -1,0 +1,127 @@
+"""Costs by action and arguments, for a domain that is left as it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from statehtn.errors import InputError
+from statehtn.hddl.diagnostics import unknown
+from statehtn.model import Action, And, CostBlock, CostDistribution, CostLaw, Equals, Formula, Not, Problem
+from statehtn.model.costs import block_of
+from statehtn.model.formula import TRUE
+
+ANY = "*"
+
+
+@dataclass(frozen=True, slots=True)
+class CostEntry:
+    """The law of an action's cost, for all instances or for some.
+
+    Args:
+        place: the file and the number of the entry, for messages.
+        action: the action's name.
+        arguments: an object for each parameter, or `*` for any; None for all instances.
+        law: of the cost.
+    """
+
+    place: str
+    action: str
+    arguments: tuple[str, ...] | None
+    law: CostLaw
+
+    def covers(self, other: CostEntry) -> bool:
+        """Tell whether every instance that the other entry is about is one of this entry's, too."""
+        pairs = zip(self.arguments or (), other.arguments or (), strict=False)
+        return self.arguments is None or (
+            all(mine == ANY for mine in self.arguments)
+            or (other.arguments is not None and all(mine in (ANY, its) for mine, its in pairs))
+        )
+
+    def overlaps(self, other: CostEntry) -> bool:
+        """Tell whether there may be an instance that both entries are about."""
+        pairs = zip(self.arguments or (), other.arguments or (), strict=False)
+        return all(mine == its or ANY in (mine, its) for mine, its in pairs)
+
+    def condition(self, action: Action) -> Formula:
+        """Return the condition on the action's parameters under which this entry is meant."""
+        fixed = tuple(
+            Equals(parameter.name, name)
+            for parameter, name in zip(action.parameters, self.arguments or (), strict=False)
+            if name != ANY
+        )
+        return TRUE if not fixed else fixed[0] if len(fixed) == 1 else And(fixed)
+
+
+@dataclass(frozen=True, slots=True)
+class CostTable:
+    """Laws of costs by action and arguments; `statehtn.read_costs` reads one from a file."""
+
+    entries: tuple[CostEntry, ...]
+
+    def apply(self, problem: Problem) -> Problem:
+        """Return a problem in which actions cost what the entries say; the problem that is given stays as it is.
+
+        Of several entries for an instance the first one counts. It replaces the whole cost of the action. Instances and
+        actions without an entry keep their cost; that is 1 in a domain that states no cost at all.
+
+        Raises:
+            InputError: there is no such action or object, arguments do not fit the parameters, or an entry can never
+                count; the message names the entry.
+        """
+        domain = problem.domain
+        by_action: dict[str, list[CostEntry]] = {}
+        for entry in self.entries:
+            _check(entry, problem, by_action.setdefault(entry.action, []))
+            by_action[entry.action].append(entry)
+        unit = (block_of(CostDistribution.certain(1)),) if domain.has_unit_costs else None
+        actions = {}
+        for name, action in domain.actions.items():
+            old = action.costs if unit is None else unit
+            actions[name] = replace(action, costs=_blocks(action, by_action.get(name, []), old))
+        return replace(problem, domain=replace(domain, actions=actions)) if self.entries else problem
+
+
+def _check(entry: CostEntry, problem: Problem, before: list[CostEntry]) -> None:
+    action = problem.domain.actions.get(entry.action)
+    if action is None:
+        raise InputError(f"{entry.place}: 'action': {unknown('action', entry.action, problem.domain.actions)}")
+    if entry.arguments is not None:
+        if len(entry.arguments) != len(action.parameters):
+            parameters = " ".join(map(str, action.parameters))
+            raise InputError(
+                f"{entry.place}: 'arguments': expected {len(action.parameters)} for ({entry.action}"
+                f"{' ' + parameters if parameters else ''}), found {len(entry.arguments)}"
+            )
+        for name, parameter in zip(entry.arguments, action.parameters, strict=True):
+            if name == ANY:
+                continue
+            if name not in problem.all_objects:
+                raise InputError(f"{entry.place}: 'arguments': {unknown('object', name, problem.all_objects)}")
+            if name not in problem.objects_of(parameter.types):
+                kind = problem.all_objects[name]
+                raise InputError(f"{entry.place}: 'arguments': expected {parameter}, found '{name}', a {kind}")
+    for earlier in before:
+        if earlier.covers(entry):
+            raise InputError(
+                f"{entry.place}: it never counts, as {earlier.place.rpartition(': ')[2]} says the cost of the same "
+                f"instances before; put what is more special first"
+            )
+
+
+def _blocks(action: Action, entries: list[CostEntry], old: tuple[CostBlock, ...]) -> tuple[CostBlock, ...]:
+    """Return the cost of an action: what the entries say, and its old cost for instances without an entry."""
+    found = []
+    for number, entry in enumerate(entries):
+        others = [earlier for earlier in entries[:number] if earlier.overlaps(entry)]
+        condition = _joined(entry.condition(action), action, others)
+        found.append(replace(block_of(entry.law), condition=condition))
+    if any(entry.condition(action) == TRUE for entry in entries):
+        return tuple(found)
+    return (*found, *(replace(block, condition=_joined(block.condition, action, entries)) for block in old))
+
+
+def _joined(condition: Formula, action: Action, others: list[CostEntry]) -> Formula:
+    """Return a condition where none of the other entries is meant."""
+    parts = condition.operands if isinstance(condition, And) else (condition,)
+    parts = (*parts, *(Not(other.condition(action)) for other in others))
+    return parts[0] if len(parts) == 1 else And(parts)

@@ -1,0 +1,33 @@
+"""`statehtn compare-attitudes`: plan for several agents, and show where their plans part."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from statehtn.attitudes import compare_attitudes
+from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
+from statehtn.cli.files import emit, read_problem
+from statehtn.cli.progress import ProgressLine
+
+
+def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
+    """Run the command and return its exit code: that of the first agent without a plan, else success.
+
+    Raises:
+        StateHtnError: the options or the input are wrong.
+    """
+    problem = read_problem(options)
+    with ProgressLine(silent=False) as progress:
+        comparison = compare_attitudes(
+            problem,
+            options.alpha,
+            heuristic=options.heuristic,
+            search=options.search,
+            time_limit=options.time_limit,
+            memory_limit=options.memory_limit,
+            progress=progress.callback,
+        )
+    emit(json.dumps(comparison.to_dict(), allow_nan=False) if options.json else str(comparison))
+    codes = (EXIT_CODES[result.status] for result in comparison.results)
+    return next((code for code in codes if code != ExitCode.SUCCESS), ExitCode.SUCCESS)

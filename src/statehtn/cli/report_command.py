@@ -1,0 +1,32 @@
+"""`statehtn report`: write a page about what a comparison has found."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from statehtn.cli.exit_codes import ExitCode
+from statehtn.cli.files import check_writable, emit, write_whole
+from statehtn.errors import UsageError
+from statehtn.experiments.report import read_outcomes, report_page
+
+
+def run_report(options: argparse.Namespace) -> ExitCode:
+    """Run the command and return its exit code.
+
+    Raises:
+        StateHtnError: the results cannot be read, or a package is missing.
+        OutputError: the page cannot be written.
+    """
+    results = Path(options.results)
+    for file in (results, results.with_suffix(".jsonl")):
+        if Path(options.output).resolve() == file.resolve():
+            raise UsageError(
+                f"--output '{options.output}' would replace the results; choose another name, such as *.html"
+            )
+    check_writable(options.output)
+    outcomes = read_outcomes(options.results)
+    page = report_page(outcomes, results.name)
+    write_whole(options.output, page)
+    emit(f"{options.output}: {len(outcomes)} runs, {len(page.encode()) / 1000:.0f} kB")
+    return ExitCode.SUCCESS

@@ -1,0 +1,105 @@
+"""`statehtn top`: find the best plans, and print them in the form that was asked for."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
+from statehtn.cli.files import OutputError, check_writable, emit, write_whole
+from statehtn.cli.progress import ProgressLine
+from statehtn.effort import Statistics
+from statehtn.errors import UsageError
+from statehtn.hddl.plan_format import write_plan
+from statehtn.model.problem import Problem
+from statehtn.model.status import Status
+from statehtn.top_planner import TopQuery, no_plans, top_plans_files
+from statehtn.top_result import TopPlans
+
+
+def run_top(options: argparse.Namespace) -> ExitCode:
+    """Run the command and return its exit code.
+
+    Raises:
+        StateHtnError: the options or the input are wrong.
+        OutputError: plans were found and printed, but could not be written to files.
+    """
+    query = TopQuery.of(
+        options.k,
+        attitude=options.attitude,
+        alpha=options.alpha,
+        distinct=options.distinct,
+        heuristic=options.heuristic,
+    )
+    if options.output is not None:
+        _check_folder(options.output)
+    problem = None
+    try:
+        with ProgressLine(silent=options.quiet) as progress:
+            result, problem = top_plans_files(
+                options.domain,
+                options.problem,
+                query,
+                strict=options.strict,
+                costs=options.costs,
+                time_limit=options.time_limit,
+                memory_limit=options.memory_limit,
+                progress=progress.show_top if progress.visible else None,
+            )
+    except KeyboardInterrupt:  # between two phases
+        result = no_plans(query, Status.INTERRUPTED, Statistics())
+    failure = None
+    if options.output is not None and problem is not None and result.plans:
+        try:
+            _write(result, problem, Path(options.output))
+        except OutputError as error:
+            failure = error  # the plans must not be lost: print them first
+    _print(result, options)
+    if failure is not None:
+        raise failure
+    return EXIT_CODES[result.status]
+
+
+def _check_folder(name: str) -> None:
+    """Find out early whether the plans can be written into the folder.
+
+    Raises:
+        UsageError: they cannot, or would lie among those of another run.
+    """
+    folder = Path(name)
+    if not folder.is_dir():
+        check_writable(name)
+        if folder.exists():
+            raise UsageError(f"cannot write plans into '{name}': it is not a directory")
+        return
+    if old := min(folder.glob("plan-*.txt"), default=None):
+        raise UsageError(f"'{name}' holds plans already ('{old.name}'); name another folder, or remove them")
+    check_writable(str(folder / "plan-1.txt"))
+
+
+def _write(result: TopPlans, problem: Problem, folder: Path) -> None:
+    """Write every plan to a file of its own.
+
+    Raises:
+        OutputError: one cannot be written.
+    """
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot write '{folder}': {error.strerror}") from error
+    digits = len(str(len(result)))
+    for ranked in result:
+        write_whole(str(folder / f"plan-{ranked.rank:0{digits}}.txt"), write_plan(ranked.plan, problem))
+
+
+def _print(result: TopPlans, options: argparse.Namespace) -> None:
+    if options.json:
+        emit(json.dumps(result.to_dict(), allow_nan=False))
+    elif options.quiet:
+        for ranked in result:
+            emit(" ".join(str(priced.step) for priced in ranked.steps))
+    else:
+        from statehtn.cli.tables import readable_top_plans
+
+        emit(readable_top_plans(result))

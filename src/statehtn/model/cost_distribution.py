@@ -1,0 +1,220 @@
+"""Costs with finitely many outcomes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import TYPE_CHECKING, Any
+
+from statehtn.errors import InputError
+from statehtn.model.exponential_mean import exponential_mean_of
+from statehtn.model.law import PLOT_POINTS, CostLaw, checked_probability
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.random import Generator
+    from numpy.typing import NDArray
+
+    from statehtn.model.sampled import SampledCost
+
+PROBABILITY_TOLERANCE = 1e-9
+ROUNDING = 1e-12  # of sums of probabilities, which are compared with a level that was asked for
+MOST_SHOWN = 5  # longer lists are summed up
+
+
+@dataclass(frozen=True, slots=True)
+class CostDistribution(CostLaw):
+    """The probability distribution of a cost with finitely many outcomes: pairs (probability, cost), sorted by cost.
+
+    Probabilities are positive and sum to 1 within 1e-9; costs are finite, at least 0 and distinct.
+    Make one by `CostDistribution.of` (which merges and checks), `certain`, `from_samples`, `from_counts` or
+    `from_scipy`.
+    Source: the `c(o)` of the paper's Definition 4.4 (cost-variable operator), with the sign turned.
+    """
+
+    outcomes: tuple[tuple[float, float], ...]
+
+    @staticmethod
+    def certain(cost: float) -> CostDistribution:
+        """Return the distribution of a cost that is known."""
+        return CostDistribution.of([(1.0, cost)])
+
+    @staticmethod
+    def of(outcomes: Iterable[tuple[float, float]]) -> CostDistribution:
+        """Merge outcomes of equal cost, drop impossible ones, and check the rest.
+
+        Raises:
+            InputError: a probability is negative or not finite, a cost is negative or not finite,
+                or the probabilities do not sum to 1.
+        """
+        return CostDistribution(checked_outcomes(outcomes))
+
+    @staticmethod
+    def from_samples(data: Iterable[float], *, most: float | None = None) -> SampledCost:
+        """Return the empirical distribution of costs that were observed: each as likely as it was frequent.
+
+        It is level 3 of the paper's section 2.1: what is possible is known, how likely it is comes from data. The
+        result knows how far its risk costs may be off (`SampledCost.risk_cost_bounds`).
+
+        Args:
+            data: independent observations of the cost, at least one, in any order; arrays of numpy will do.
+            most: the largest cost that is possible at all, where it is known; error bounds upwards need it.
+
+        Raises:
+            InputError: there are no data, one is no finite number of at least 0, or one is above `most`.
+        """
+        from statehtn.model.sampled import sampled_cost
+
+        return sampled_cost(data, most)
+
+    @staticmethod
+    def from_counts(counts: Mapping[float, float], prior: float | Mapping[float, float] = 1.0) -> CostDistribution:
+        """Return the posterior predictive distribution of the next cost, from counts and a Dirichlet prior.
+
+        An outcome seen `n` times with a prior weight of `a` has probability `(n + a) / (N + A)`, where `N` and `A` are
+        the sums over all outcomes. It is level 4 of the paper's section 2.1: probabilities are beliefs. Source: Gelman
+        et al., *Bayesian Data Analysis*, section 3.4. An action that a plan has twice is taken as two independent
+        draws.
+
+        Args:
+            counts: how often each cost was seen; 0 for one that is possible.
+            prior: the weight of each outcome before any was seen, in observations: one number for all (1: all equally
+                likely; 0: the frequencies), or a number for each cost, which may be one that was never seen.
+
+        Raises:
+            InputError: a count or a weight is negative, or all are 0; a cost is negative or not finite.
+        """
+        from statehtn.model.sampled import posterior_predictive
+
+        return posterior_predictive(counts, prior)
+
+    @staticmethod
+    def from_scipy(distribution: Any) -> CostLaw:
+        """Return the law of a frozen distribution of `scipy.stats`, such as `scipy.stats.gamma(2, scale=3)`.
+
+        Returns a `CostDistribution` for a discrete one with finitely many outcomes, and a `ScipyCost` for others.
+
+        Raises:
+            InputError: it is none, its parameters are out of range, it can be negative, or its mean is infinite.
+            UnsupportedError: it is discrete with infinitely many outcomes, and not Poisson, geometric or negative
+                binomial.
+        """
+        from statehtn.model.scipy_cost import law_of
+
+        return law_of(distribution)
+
+    @property
+    def mean(self) -> float:
+        """The expected cost, in the domain's unit."""
+        return math.fsum(probability * cost for probability, cost in self.outcomes)
+
+    @property
+    def standard_deviation(self) -> float:
+        """The standard deviation of the cost, in the domain's unit."""
+        mean = self.mean
+        return math.sqrt(math.fsum(probability * (cost - mean) ** 2 for probability, cost in self.outcomes))
+
+    @property
+    def least(self) -> float:
+        """The least cost that is possible."""
+        return self.outcomes[0][1]
+
+    @property
+    def most(self) -> float:
+        """The largest cost that is possible."""
+        return self.outcomes[-1][1]
+
+    def cdf(self, cost: float) -> float:
+        """Return the probability of paying at most `cost`."""
+        return min(1.0, math.fsum(probability for probability, outcome in self.outcomes if outcome <= cost))
+
+    def exceedance(self, budget: float) -> float:
+        """Return the probability of paying more than `budget`."""
+        return min(1.0, math.fsum(probability for probability, outcome in self.outcomes if outcome > budget))
+
+    def quantile(self, probability: float) -> float:
+        """Return the least outcome that is not exceeded with at least this probability, to 1e-12 of it.
+
+        Raises:
+            UsageError: the probability is not between 0 and 1.
+        """
+        if checked_probability(probability, "the probability of a quantile") == 1:
+            return self.most
+        reached = 0.0
+        for weight, cost in self.outcomes:
+            reached += weight
+            if reached >= probability - ROUNDING:
+                return cost
+        return self.most
+
+    def cvar(self, level: float) -> float:
+        """Return the mean cost of the worst `1 - level` of all cases.
+
+        Raises:
+            UsageError: the level is not between 0 and 1.
+        """
+        tail = 1 - checked_probability(level, "the level of the CVaR")
+        if tail <= ROUNDING:
+            return self.most
+        total, left = 0.0, tail
+        for weight, cost in reversed(self.outcomes):
+            taken = min(weight, left)
+            total += taken * cost
+            left -= taken
+            if left <= 0:
+                break
+        return min(max(total / (tail - max(left, 0.0)), self.least), self.most)
+
+    def exponential_mean(self, slope: float) -> float:
+        """Return `ln E[e^(slope C)] / slope`, between the least and the largest outcome."""
+        probabilities = [probability for probability, _ in self.outcomes]
+        mean = min(max(self.mean, self.least), self.most)
+        return exponential_mean_of(probabilities, [cost for _, cost in self.outcomes], mean, slope)
+
+    def exponential_mean_error(self, slope: float) -> float:  # noqa: ARG002
+        """Return 0: it is exact but for rounding."""
+        return 0.0
+
+    def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
+        """Draw so many independent costs with a generator of numpy."""
+        import numpy
+
+        table = numpy.array(self.outcomes)
+        return generator.choice(table[:, 1], size=runs, p=table[:, 0] / table[:, 0].sum())
+
+    def convolve(self, other: CostDistribution) -> CostDistribution:
+        """Return the distribution of the sum of two independent costs."""
+        return CostDistribution.of((p * q, c + d) for p, c in self.outcomes for q, d in other.outcomes)
+
+    def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
+        """Return ascending costs, and the probability of each or less, for a drawing in at most so many steps."""
+        costs, heights = [cost for _, cost in self.outcomes], list(accumulate(p for p, _ in self.outcomes))
+        step = math.ceil(len(costs) / points)
+        last = len(costs) - 1
+        shown = sorted({*range(0, last, step), last})
+        return [costs[0], *(costs[index] for index in shown)], [0.0, *(heights[index] for index in shown)]
+
+    def __str__(self) -> str:
+        if len(self.outcomes) == 1:
+            return f"{self.outcomes[0][1]:g}"
+        if len(self.outcomes) > MOST_SHOWN:
+            return f"{len(self.outcomes)} outcomes from {self.least:g} to {self.most:g}"
+        return ", ".join(f"{cost:g} w.p. {probability:g}" for probability, cost in self.outcomes)
+
+
+def checked_outcomes(outcomes: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """Return outcomes as a `CostDistribution` has them; for its errors see `CostDistribution.of`."""
+    merged: dict[float, float] = {}
+    for probability, cost in outcomes:
+        if not (math.isfinite(probability) and probability >= 0):
+            raise InputError(f"a probability must be between 0 and 1, found {probability:g}")
+        if not (math.isfinite(cost) and cost >= 0):
+            raise InputError(f"a cost must be a finite number and at least 0, found {cost:g}")
+        if probability > 0:
+            merged[cost] = merged.get(cost, 0.0) + probability
+    total = math.fsum(merged.values())
+    if abs(total - 1) > PROBABILITY_TOLERANCE:
+        raise InputError(f"the probabilities of a cost must sum to 1, found {total:.12g}")
+    return tuple((merged[cost], float(cost)) for cost in sorted(merged))

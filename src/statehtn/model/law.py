@@ -1,0 +1,133 @@
+"""What every law of an uncertain cost can be asked."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING
+
+from statehtn.errors import UsageError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy import float64
+    from numpy.random import Generator
+    from numpy.typing import NDArray
+
+PLOT_POINTS = 400
+MOST_DRAWN = 0.9995  # the rest of a long tail is left out
+
+
+class CostLaw(ABC):
+    """The probability law of a cost of an action or a plan: at least 0, minimised, in the domain's own unit.
+
+    `CostDistribution` is a list of outcomes, `ScipyCost` a continuous law, `CostSum` a sum of independent laws.
+    """
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def mean(self) -> float:
+        """The expected cost."""
+
+    @property
+    @abstractmethod
+    def standard_deviation(self) -> float:
+        """The standard deviation of the cost, in the same unit; may be infinite."""
+
+    @property
+    @abstractmethod
+    def least(self) -> float:
+        """The least cost that is possible."""
+
+    @property
+    @abstractmethod
+    def most(self) -> float:
+        """The largest cost that is possible; may be infinite."""
+
+    @abstractmethod
+    def cdf(self, cost: float) -> float:
+        """Return the probability of paying at most `cost`."""
+
+    @abstractmethod
+    def exceedance(self, budget: float) -> float:
+        """Return the probability of paying more than `budget`."""
+
+    @abstractmethod
+    def quantile(self, probability: float) -> float:
+        """Return the least budget that is kept with at least this probability (the value at risk).
+
+        Raises:
+            UsageError: the probability is not between 0 and 1.
+        """
+
+    @abstractmethod
+    def cvar(self, level: float) -> float:
+        """Return the conditional value at risk: the mean of the worst `1 - level` of all cases.
+
+        It is the mean for level 0 and the largest possible cost for level 1. Source: Acerbi and Tasche, *On the
+        coherence of expected shortfall*, 2002, with costs for losses.
+
+        Raises:
+            UsageError: the level is not between 0 and 1.
+        """
+
+    @abstractmethod
+    def exponential_mean(self, slope: float) -> float:
+        """Return `ln E[e^(slope C)] / slope`; it rises with the slope, through the mean (the limit) at 0.
+
+        It is the certainty equivalent of an exponential utility: the slope is alpha for an averse agent and -alpha for
+        a seeking one.
+
+        Args:
+            slope: not 0, per unit of cost.
+
+        Raises:
+            InputError: the expectation is infinite, or cannot be computed.
+        """
+
+    @abstractmethod
+    def exponential_mean_error(self, slope: float) -> float:
+        """Return the error of `exponential_mean` beyond rounding: 0 but for what is integrated numerically."""
+
+    @abstractmethod
+    def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
+        """Draw so many independent costs with a generator of numpy."""
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the probability of keeping each budget, by matplotlib (`pip install 'statehtn[plots]'`).
+
+        Args:
+            ax: where to draw; a new figure where it is None.
+
+        Raises:
+            UsageError: matplotlib is not installed.
+        """
+        from statehtn.display.law_plot import plot_law
+
+        return plot_law(*self.curve(), mean=self.mean, worst=(self.quantile(0.95), self.cvar(0.95)), ax=ax)
+
+    def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
+        """Return ascending costs, and the probability of each or less, for a drawing in about so many steps.
+
+        It begins with probability 0 where the least cost has one; of a long tail the end may be missing.
+        """
+        low, high = self.quantile(0), min(self.most, self.quantile(MOST_DRAWN))
+        costs = [low + (high - low) * point / points for point in range(points + 1)]
+        return costs, [self.cdf(cost) for cost in costs]
+
+
+def checked_probability(value: float, what: str) -> float:
+    """Return a probability.
+
+    Raises:
+        UsageError: it is not between 0 and 1.
+    """
+    if not 0 <= value <= 1:
+        raise UsageError(f"{what} must be between 0 and 1, found {value:g}")
+    return value
+
+
+def is_of_scipy(value: object) -> bool:
+    """Tell whether something comes from `scipy.stats`, without importing it."""
+    return any(kind.__module__.startswith("scipy.stats") for kind in type(value).__mro__)

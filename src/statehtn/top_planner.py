@@ -1,0 +1,232 @@
+"""The best plans instead of one: read, ground, search, validate; every run ends in a `TopPlans`, whatever ends it."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.top_plans import DISTINCT, TopOutcome, TopProgress, find_top_plans
+from statehtn.effort import Statistics, peak_memory_mb
+from statehtn.errors import UsageError
+from statehtn.limits import Limits
+from statehtn.model.plan import Plan
+from statehtn.model.problem import Problem
+from statehtn.model.status import Status
+from statehtn.planner import ENDINGS, measured_ground, measured_read, priced_plan, status_of
+from statehtn.result import PricedStep
+from statehtn.risk import Attitude, Utility, problem_class, utility_for
+from statehtn.top_result import RankedPlan, TopPlans
+
+TopProgressCallback = Callable[[TopProgress], None]
+
+TOP_HEURISTICS = tuple(name for name, info in HEURISTICS.items() if info.admissible)
+"""The heuristics that a search for the best plans can take."""
+DEFAULT_TOP_HEURISTIC = "lmcut"
+MOST_PLANS = 1_000_000_000
+SECONDS_TO_VALIDATE = 2.0
+"""So long after the time limit, or after what ended the search before, plans are still validated."""
+
+
+@dataclass(frozen=True, slots=True)
+class TopQuery:
+    """Which plans are wanted, and how to find them; make one by `TopQuery.of`, which checks it."""
+
+    k: int
+    utility: Utility
+    distinct: str
+    heuristic: str
+
+    @staticmethod
+    def of(
+        k: int,
+        attitude: Attitude | str = Attitude.NEUTRAL,
+        alpha: float | None = None,
+        distinct: str = "sequence",
+        heuristic: str | None = None,
+    ) -> TopQuery:
+        """Check the arguments, described at `top_plans`.
+
+        Raises:
+            UsageError: a name is unknown, or a number out of range.
+        """
+        utility = utility_for(attitude, alpha)
+        if not 1 <= k <= MOST_PLANS:
+            raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {k}")
+        heuristic = heuristic or DEFAULT_TOP_HEURISTIC
+        for kind, name, known in (("distinct", distinct, DISTINCT), ("heuristic", heuristic, TOP_HEURISTICS)):
+            if name not in known:
+                raise UsageError(f"no such value of {kind} here: '{name}'; there are {', '.join(known)}")
+        return TopQuery(k, utility, distinct, heuristic)
+
+
+def top_plans(
+    problem: Problem,
+    k: int,
+    *,
+    attitude: Attitude | str = Attitude.NEUTRAL,
+    alpha: float | None = None,
+    distinct: str = "sequence",
+    heuristic: str | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    progress: TopProgressCallback | None = None,
+) -> TopPlans:
+    """Find the k plans with the highest expected utility, and prove that they are.
+
+    Plans are different if their actions are; how they were decomposed makes no difference. Where there are fewer than
+    k, all are returned. A limit that was reached and a Ctrl-C are values of the result's `status`, not exceptions: what
+    was found by then is there, and `proven` says how much of it is proven.
+
+    Args:
+        problem: a problem, such as `read_hddl` returns.
+        k: how many plans.
+        attitude: neutral, averse or seeking.
+        alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
+        distinct: `sequence`: plans differ if their sequences of actions do; `multiset`: plans with the same actions in
+            another order are one, the cheapest of them.
+        heuristic: the name of an admissible heuristic in `HEURISTICS`; `lmcut` where none is given.
+        time_limit: seconds, for grounding and search together. Every plan is validated after the search; those that
+            are not two seconds after the limit, or after an interruption, are left out.
+        memory_limit: resident memory of the whole process in MB (10^6 bytes).
+        progress: is called some ten times a second during the search.
+
+    Raises:
+        UsageError: an argument is out of its range.
+        InputError: the cost of a reachable action is undefined, negative or no distribution.
+        UnsupportedError: the problem asks for something that the planner does not do.
+    """
+    query = TopQuery.of(k, attitude, alpha, distinct, heuristic)
+    limits = Limits.starting_now(time_limit, memory_limit)
+    return _solve(problem, query, limits, progress, Statistics())
+
+
+def top_plans_files(
+    domain: str | os.PathLike[str],
+    problem: str | os.PathLike[str],
+    query: TopQuery,
+    *,
+    strict: bool = False,
+    costs: str | os.PathLike[str] | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    progress: TopProgressCallback | None = None,
+) -> tuple[TopPlans, Problem | None]:
+    """Read a problem from HDDL files and find its best plans; the limits hold for the reading, too.
+
+    `costs` is a file with costs for the domain's actions (`read_costs`). Returns the result, and the problem where it
+    was read to its end. The other arguments and what it raises: see `top_plans` and `read_hddl`.
+    """
+    limits = Limits.starting_now(time_limit, memory_limit)
+    read, statistics = measured_read(domain, problem, strict, limits, costs)
+    if isinstance(read, Status):
+        return no_plans(query, read, statistics), None
+    return _solve(read, query, limits, progress, statistics), read
+
+
+def no_plans(query: TopQuery, status: Status, statistics: Statistics) -> TopPlans:
+    """Return the result of a run that something ended before the search had anything to show."""
+    return TopPlans(
+        status=status,
+        stopped=status,
+        k=query.k,
+        distinct=query.distinct,
+        problem_class=str(problem_class("state", query.utility)),
+        utility=query.utility,
+        heuristic=query.heuristic,
+        statistics=replace(statistics, peak_memory_mb=peak_memory_mb()),
+    )
+
+
+def _solve(
+    problem: Problem, query: TopQuery, limits: Limits, progress: TopProgressCallback | None, statistics: Statistics
+) -> TopPlans:
+    """Ground, search and validate."""
+    grounding, statistics = measured_ground(problem, limits, statistics)
+    if isinstance(grounding, Status):
+        return no_plans(query, grounding, statistics)
+    start = time.perf_counter()
+    try:
+        outcome = find_top_plans(
+            grounding,
+            query.utility,
+            query.k,
+            distinct=query.distinct,
+            heuristic=query.heuristic,
+            limits=limits,
+            progress=progress,
+        )
+    except ENDINGS as ending:
+        return no_plans(query, status_of(ending), replace(statistics, search_seconds=time.perf_counter() - start))
+    statistics = replace(
+        statistics,
+        expanded=outcome.expanded,
+        generated=outcome.generated,
+        evaluated=outcome.evaluated,
+        dead_ends=outcome.dead_ends,
+        search_seconds=time.perf_counter() - start,
+    )
+    priced, stopped = _price(problem, query.utility, outcome, limits)
+    plans = tuple(_ranked(priced, outcome.proven, query.utility))
+    if stopped is not None:
+        status = Status.SOLVED if plans else stopped
+    else:
+        status = Status.OPTIMAL if plans else Status.UNSOLVABLE
+    return replace(
+        no_plans(query, status, statistics),
+        stopped=stopped,
+        plans=plans,
+        is_all=outcome.is_all and stopped is None,
+        lower_bound=_bound(outcome, plans),
+    )
+
+
+_Priced = tuple[Plan, tuple[PricedStep, ...]]
+
+
+def _price(
+    problem: Problem, utility: Utility, outcome: TopOutcome, limits: Limits
+) -> tuple[list[_Priced], Status | None]:
+    """Validate and price the plans that were found, at least one, and say what ended that, or the search before.
+
+    Raises:
+        InternalError: a plan is wrong.
+    """
+    priced: list[_Priced] = []
+    deadline = limits.deadline if outcome.stopped is None else time.monotonic()
+    try:
+        for plan in outcome.plans:
+            if priced and deadline is not None and time.monotonic() > deadline + SECONDS_TO_VALIDATE:
+                return priced, outcome.stopped or Status.TIME_LIMIT
+            priced.append(priced_plan(problem, plan, utility))
+    except (MemoryError, KeyboardInterrupt) as ending:
+        return priced, status_of(ending)
+    return priced, outcome.stopped
+
+
+def _ranked(priced: Sequence[_Priced], proven: int, utility: Utility) -> Iterator[RankedPlan]:
+    """Yield the plans in their order.
+
+    The core compares costs that are rounded down, so that plans that are equally good come in any order.
+    """
+
+    def place(priced: _Priced) -> tuple[float, int, list[str]]:
+        _, steps = priced
+        cost = math.fsum(step.risk_cost for step in steps)
+        return float(f"{cost:.12g}"), len(steps), [str(step.step) for step in steps]
+
+    in_order = sorted(priced[:proven], key=place) + sorted(priced[proven:], key=place)
+    for index, (plan, steps) in enumerate(in_order):
+        yield RankedPlan(index + 1, index < proven, plan, steps, utility)
+
+
+def _bound(outcome: TopOutcome, plans: Sequence[RankedPlan]) -> float | None:
+    """Return what every plan costs that is not among these; at most as much as the last one, rounding aside."""
+    if not plans:
+        return None if outcome.plans else outcome.lower_bound
+    if len(plans) < len(outcome.plans):
+        return plans[-1].risk_cost
+    return None if outcome.lower_bound is None else min(outcome.lower_bound, plans[-1].risk_cost)
