@@ -2,6 +2,7 @@
 #define RELAX_OPEN_LIST_HPP
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,9 +12,9 @@
 
 namespace relax {
 
-// The open list: a heap by priority (f, say); ties by low h, then by fewer pending tasks, so that recursion that costs
-// nothing does not dive for ever, then the newest first. Entries are not removed when their node improves: who pops one
-// asks the node.
+// The open list: a heap by priority (f, say); ties by low h, then the newest first, but for recursion that costs nothing
+// and would dive for ever: a network comes after all those with half as many tasks or fewer. Entries are not removed when
+// their node improves: who pops one asks the node.
 class OpenList {
 public:
     struct Entry {
@@ -48,8 +49,10 @@ private:
         if (left.h != right.h) {
             return left.h > right.h;
         }
-        if (left.pending_tasks != right.pending_tasks) {
-            return left.pending_tasks > right.pending_tasks;
+        const int left_scale = std::bit_width(left.pending_tasks);
+        const int right_scale = std::bit_width(right.pending_tasks);
+        if (left_scale != right_scale) {
+            return left_scale > right_scale;
         }
         return left.age < right.age;
     }
