@@ -121,32 +121,39 @@ std::span<const std::uint64_t> RelevantFacts::of(TaskNetworks& networks, Network
     return masks_[find(networks, network)];
 }
 
-// What matters to a list is what matters to its first task and to the rest.
 RelevantFacts::MaskId RelevantFacts::find(TaskNetworks& networks, NetworkId network) {
     if (known(network) != kUnknown) {
         return known(network);
     }
     std::ranges::fill(mask_, 0);
-    chain_.clear();
+    if (networks.are_totally_ordered()) {
+        return find_in_chain(networks, network);
+    }
     tasks_.clear();
     networks.tasks(network, tasks_);
-    if (networks.are_totally_ordered()) {
-        for (; known(network) == kUnknown && !networks.is_empty(network); network = networks.progress(network, 0)) {
-            chain_.push_back(network);
-        }
-        if (known(network) != kUnknown) {
-            std::ranges::copy(masks_[known(network)], mask_.begin());
-        }
-        for (std::size_t at = chain_.size(); at-- > 0;) {
-            unite(mask_, of(tasks_[at]));
-            known(chain_[at]) = masks_.intern(mask_);
-        }
-        return chain_.empty() ? masks_.intern(mask_) : known(chain_.front());
-    }
     for (const TaskId task : tasks_) {
         unite(mask_, of(task));
     }
     return known(network) = masks_.intern(mask_);
+}
+
+// What matters to a list is what matters to its first task and to the rest.
+RelevantFacts::MaskId RelevantFacts::find_in_chain(TaskNetworks& networks, NetworkId network) {
+    chain_.clear();
+    for (; known(network) == kUnknown && !networks.is_empty(network); network = networks.progress(network, 0)) {
+        chain_.push_back(network);
+    }
+    if (known(network) == kUnknown) {
+        known(network) = masks_.intern(mask_);  // nothing matters to the empty list
+    }
+    std::ranges::copy(masks_[known(network)], mask_.begin());
+    for (std::size_t at = chain_.size(); at-- > 0;) {
+        first_.clear();
+        networks.unconstrained(chain_[at], first_);
+        unite(mask_, of(first_.front().task));
+        known(chain_[at]) = masks_.intern(mask_);
+    }
+    return masks_.intern(mask_);
 }
 
 RelevantFacts::MaskId& RelevantFacts::known(NetworkId network) {

@@ -27,20 +27,27 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
         occurring_.push_back(&profiles_[task]);
     }
     is_open_.assign(network.words, 0);
-    is_compound_.assign(network.words, 0);
     is_applicable_.assign(network.words, 0);
+    compounds_.reads.clear();
+    compounds_.makes.clear();
     for (const Occurrence& occurrence : unconstrained) {
-        add(is_open_, occurrence.index);
         if (!problem_.is_primitive(occurrence.task)) {
-            add(is_compound_, occurrence.index);
-        } else if (transition_.is_applicable(occurrence.task, state)) {
+            compounds_.reads.insert_all(occurring_[occurrence.index]->reads);
+            compounds_.makes.insert_all(occurring_[occurrence.index]->makes);
+            continue;
+        }
+        add(is_open_, occurrence.index);
+        if (transition_.is_applicable(occurrence.task, state)) {
             add(is_applicable_, occurrence.index);
         }
     }
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     std::vector<std::uint64_t> best;
     for (const Occurrence& seed : unconstrained) {
-        if (has(is_compound_, seed.index) || !close(network, state, seed.index)) {
+        // What closes around one occurrence of a task closes around another one, as a rule.
+        const bool is_tried = std::any_of(unconstrained.data(), &seed,
+                                          [&](const Occurrence& earlier) { return earlier.task == seed.task; });
+        if (is_tried || !problem_.is_primitive(seed.task) || !close(network, state, seed.index)) {
             continue;
         }
         const auto count = static_cast<std::size_t>(
@@ -71,29 +78,38 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
     put(seed);
     for (std::size_t next = 0; next < members_.size(); ++next) {
         const std::uint32_t member = members_[next];
+        if (concerns(compounds_, member, state)) {
+            return false;
+        }
         for (std::uint32_t other = 0; other < network.tasks.size(); ++other) {
             if (has(is_member_, other) || has(is_after_, other) || !concerns(*occurring_[other], member, state)) {
                 continue;
             }
-            std::uint32_t first = other;
-            if (!has(is_open_, other)) {
-                // Something unconstrained is before it and not a member, else it would be after one or unconstrained.
-                const auto row = network.row(other);
-                for (std::size_t word = 0; word < row.size(); ++word) {
-                    if (const std::uint64_t bits = row[word] & is_open_[word]) {
-                        first =
-                            static_cast<std::uint32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
-                        break;
-                    }
-                }
+            if (has(is_open_, other)) {
+                put(other);
+                continue;
             }
-            if (has(is_compound_, first)) {
+            // Something unconstrained is before it and not a member, else it would be after one or unconstrained
+            // itself.
+            const std::optional<std::uint32_t> first = open_before(network, other);
+            if (!first) {
                 return false;
             }
-            put(first);
+            put(*first);
         }
     }
     return true;
+}
+
+// An unconstrained action before the task, if there is one.
+std::optional<std::uint32_t> StubbornSet::open_before(const OrderedTasks& network, std::uint32_t task) const {
+    const auto row = network.row(task);
+    for (std::size_t word = 0; word < row.size(); ++word) {
+        if (const std::uint64_t bits = row[word] & is_open_[word]) {
+            return static_cast<std::uint32_t>(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+        }
+    }
+    return std::nullopt;
 }
 
 void StubbornSet::put(std::uint32_t index) {

@@ -13,8 +13,7 @@ const TaskProfile& TaskProfiles::operator[](TaskId task) {
 }
 
 TaskProfile TaskProfiles::of_action(ActionId action) const {
-    const std::size_t facts = problem_.fact_count();
-    TaskProfile result{Literals(facts), Literals(facts), Literals(facts), {}, {}, {}};
+    TaskProfile result = TaskProfile::empty(problem_);
     for (const FactId fact : problem_.preconditions[action]) {
         result.preconditions.push_back(2 * fact);
     }
@@ -58,8 +57,7 @@ TaskProfile TaskProfiles::of_action(ActionId action) const {
 }
 
 TaskProfile TaskProfiles::of_compound(TaskId task) {
-    const std::size_t facts = problem_.fact_count();
-    TaskProfile result{Literals(facts), Literals(facts), Literals(facts), {}, {}, {}};
+    TaskProfile result = TaskProfile::empty(problem_);
     std::vector<bool> is_seen(problem_.task_count(), false);
     std::vector<TaskId> pending{task};
     is_seen[task] = true;

@@ -12,9 +12,9 @@
 
 namespace relax {
 
-// The open list: a heap by priority (f, say); ties by low h, then the newest first, but for recursion that costs nothing
-// and would dive for ever: a network comes after all those with half as many tasks or fewer. Entries are not removed when
-// their node improves: who pops one asks the node.
+// The open list: a heap by priority (f, say); ties by low h, then the newest first, but for recursion that costs
+// nothing and would dive for ever: a network comes after all those with half as many tasks or fewer. Entries are not
+// removed when their node improves: who pops one asks the node.
 class OpenList {
 public:
     struct Entry {

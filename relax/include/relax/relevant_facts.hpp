@@ -34,6 +34,7 @@ private:
     void close_component(std::span<const TaskId> members);
     void add_reads(ActionId action);
     MaskId find(TaskNetworks& networks, NetworkId network);
+    MaskId find_in_chain(TaskNetworks& networks, NetworkId network);
     MaskId& known(NetworkId network);
 
     const GroundProblem& problem_;
@@ -47,6 +48,7 @@ private:
     SegmentedArray<MaskId> mask_of_network_;
     StateBits mask_;
     std::vector<NetworkId> chain_;
+    std::vector<Occurrence> first_;
     std::vector<TaskId> tasks_;
 };
 

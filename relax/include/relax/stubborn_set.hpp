@@ -23,7 +23,8 @@ namespace relax {
 // Every task has to be executed some time; the first one of the set can then be moved to the front of any plan.
 class StubbornSet {
 public:
-    explicit StubbornSet(const GroundProblem& problem) : problem_(problem), profiles_(problem), transition_(problem) {}
+    explicit StubbornSet(const GroundProblem& problem)
+        : problem_(problem), profiles_(problem), transition_(problem), compounds_(TaskProfile::empty(problem)) {}
 
     // Find the applicable ones of the smallest such set: where there are none, the node is a dead end. Nothing, where
     // every set has to do with an unconstrained compound task. Valid until the next call.
@@ -33,6 +34,7 @@ public:
 private:
     bool close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed);
     bool concerns(const TaskProfile& other, std::uint32_t member, std::span<const std::uint64_t> state) const;
+    std::optional<std::uint32_t> open_before(const OrderedTasks& network, std::uint32_t task) const;
     void put(std::uint32_t index);
 
     const GroundProblem& problem_;
@@ -41,8 +43,8 @@ private:
     // Of the network looked at.
     OrderedTasks successors_;
     std::vector<const TaskProfile*> occurring_;  // by occurrence
-    std::vector<std::uint64_t> is_open_;         // a row: the unconstrained ones
-    std::vector<std::uint64_t> is_compound_;     // a row: unconstrained, too
+    std::vector<std::uint64_t> is_open_;         // a row: the unconstrained actions
+    TaskProfile compounds_;                      // what the unconstrained compound tasks read and make, together
     std::vector<std::uint64_t> is_applicable_;   // a row
     // The set being made.
     std::vector<std::uint32_t> members_;

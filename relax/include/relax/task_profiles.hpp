@@ -1,6 +1,7 @@
 #ifndef RELAX_TASK_PROFILES_HPP
 #define RELAX_TASK_PROFILES_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,6 +25,7 @@ public:
     bool contains(Literal literal) const { return (words_[literal / 64] >> (literal % 64) & 1U) != 0; }
     void insert(Literal literal) { words_[literal / 64] |= std::uint64_t{1} << (literal % 64); }
     void erase(Literal literal) { words_[literal / 64] &= ~(std::uint64_t{1} << (literal % 64)); }
+    void clear() { std::ranges::fill(words_, 0); }
     void insert_all(const Literals& others) {
         for (std::size_t word = 0; word < words_.size(); ++word) {
             words_[word] |= others.words_[word];
@@ -46,6 +48,11 @@ struct TaskProfile {
     std::vector<Literal> preconditions;
     std::vector<Literal> read_list;
     std::vector<Literal> made_list;
+
+    static TaskProfile empty(const GroundProblem& problem) {
+        const Literals none(problem.fact_count());
+        return {none, none, none, {}, {}, {}};
+    }
 };
 
 // The profiles of tasks, each made when it is first asked for.

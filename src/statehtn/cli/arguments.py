@@ -17,7 +17,8 @@ from statehtn.risk import Attitude
 from statehtn.top_planner import DEFAULT_TOP_HEURISTIC, TOP_HEURISTICS
 
 PLAN_EPILOG = """heuristics:
-  auto       A* with tdg, potential and lmcut in turn, which share what they prove
+  auto       three A* searches in turn, which share what they prove: with tdg, with lmcut,
+             and with potential-hmax, potential and lmcut one after the other
 {}
 
 exit codes:

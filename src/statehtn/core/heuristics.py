@@ -87,7 +87,8 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
 )
 
 PORTFOLIO = "auto"
-"""The name of no heuristic, but of A* with `tdg`, `potential` and `lmcut` in turn, which share what they prove."""
+"""The name of no heuristic, but of three A* searches in turn, which share what they prove: with `tdg`, with `lmcut`,
+and with `potential-hmax`, `potential` and `lmcut` one after the other."""
 
 
 class HeuristicEvaluator:
