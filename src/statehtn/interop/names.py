@@ -1,0 +1,117 @@
+"""Names on both sides: what is called what in unified-planning (UP), where any string is a name, and in HDDL."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container, Iterator
+from dataclasses import dataclass, field
+from itertools import chain, count
+
+from statehtn.build.names import WORDS
+from statehtn.model import Problem
+from statehtn.model.types import ROOT_TYPE
+
+_NOT_IN_NAMES = re.compile(r"[\s();]+")
+
+
+class Names:
+    """Pairs of names of one kind; every name has one partner on the other side."""
+
+    def __init__(self) -> None:
+        self._ours: dict[str, str] = {}
+        self._theirs: dict[str, str] = {}
+
+    def pair(self, ours: str, theirs: str) -> None:
+        """Let two names stand for the same thing."""
+        self._ours[theirs] = ours
+        self._theirs[ours] = theirs
+
+    def ours(self, theirs: str) -> str:
+        """Return the name here of what UP calls so."""
+        return self._ours[theirs]
+
+    def theirs(self, ours: str) -> str:
+        """Return UP's name of what is called so here."""
+        return self._theirs[ours]
+
+    def knows(self, theirs: str) -> bool:
+        """Tell whether UP has something of this name."""
+        return theirs in self._ours
+
+
+@dataclass(frozen=True, slots=True)
+class Vocabulary:
+    """The names of a problem on both sides; actions and compound tasks are `tasks`, predicates and functions `fluents`."""
+
+    types: Names = field(default_factory=Names)
+    fluents: Names = field(default_factory=Names)
+    tasks: Names = field(default_factory=Names)
+    methods: Names = field(default_factory=Names)
+    objects: Names = field(default_factory=Names)
+
+
+def our_name(theirs: str, taken: Container[str]) -> str:
+    """Return a name that HDDL can write, as similar as can be, and that is not taken."""
+    name = _NOT_IN_NAMES.sub("_", theirs).lower().lstrip("?:-") or "unnamed"
+    candidates = chain([name], (f"{name}-{number}" for number in count(2)))
+    return next(candidate for candidate in candidates if candidate not in taken and candidate not in WORDS)
+
+
+def vocabulary_of_up(problem: object) -> Vocabulary:
+    """Return the names for the things of a UP problem."""
+    vocabulary = Vocabulary()
+    _pair_types(problem, vocabulary.types)
+    for names, things in (
+        (vocabulary.fluents, problem.fluents),  # type: ignore[attr-defined]
+        (vocabulary.tasks, [*problem.actions, *problem.tasks]),  # type: ignore[attr-defined]
+        (vocabulary.methods, problem.methods),  # type: ignore[attr-defined]
+        (vocabulary.objects, problem.all_objects),  # type: ignore[attr-defined]
+    ):
+        taken: set[str] = {"total-cost"} if names is vocabulary.fluents else set()
+        for thing in things:
+            name = our_name(thing.name, taken)
+            taken.add(name)
+            names.pair(name, thing.name)
+    return vocabulary
+
+
+def _pair_types(problem: object, names: Names) -> None:
+    """Pair the types; one called `object` that is above all others is ours of that name."""
+    types = list(problem.user_types)  # type: ignore[attr-defined]
+    roots = [kind for kind in types if kind.father is None]
+    taken = {ROOT_TYPE}
+    for kind in types:
+        if roots == [kind] and kind.name == ROOT_TYPE:
+            names.pair(ROOT_TYPE, kind.name)
+            continue
+        name = our_name(kind.name, taken)
+        taken.add(name)
+        names.pair(name, kind.name)
+
+
+def vocabulary_of(problem: Problem) -> Vocabulary:
+    """Return UP's names for the things of a problem: their own, with their kind added where two have one name.
+
+    UP has one namespace for all. What plans speak of keeps its name first.
+    """
+    domain = problem.domain
+    vocabulary = Vocabulary()
+    taken: set[str] = set()
+    kinds: Iterator[tuple[Names, str, list[str]]] = iter(
+        (
+            (vocabulary.tasks, "action", list(domain.actions)),
+            (vocabulary.tasks, "task", list(domain.tasks)),
+            (vocabulary.objects, "object", list(problem.all_objects)),
+            (vocabulary.methods, "method", list(domain.methods)),
+            (vocabulary.fluents, "predicate", list(domain.predicates)),
+            (vocabulary.fluents, "function", list(domain.functions)),
+            (vocabulary.types, "type", [ROOT_TYPE, *domain.types.parents]),
+        )
+    )
+    for names, kind, ours in kinds:
+        for name in ours:
+            candidates = chain([name, f"{name}-{kind}"], (f"{name}-{kind}-{number}" for number in count(2)))
+            theirs = next(candidate for candidate in candidates if candidate not in taken)
+            taken.add(theirs)
+            names.pair(name, theirs)
+    return vocabulary
