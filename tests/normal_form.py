@@ -1,7 +1,7 @@
 """A normal form of problems, for comparing what went through another representation.
 
-It forgets what does not matter: nested and repeated operands of `and` and `or`, whether an object is a constant, how
-often an order is stated, the domain's name, and labels of subtasks.
+It forgets what does not matter: nested and repeated operands of `and` and `or`, whether an object is a constant, types
+that nothing has, how often an order is stated, the domain's name, and labels of subtasks.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 
+from statehtn.interop.write_types import variables
 from statehtn.model import (
     Action,
     And,
@@ -31,10 +32,12 @@ from statehtn.model.types import ROOT_TYPE
 
 def normal_form(problem: Problem) -> Problem:
     domain = problem.domain
+    used = {*problem.all_objects.values(), *(kind for variable in variables(problem) for kind in variable.types)}
+    kept = {kind for one in used for kind in domain.types.supertypes(one)}
     normal = replace(
         domain,
         name="domain",
-        types=TypeHierarchy({name: _parents(name, domain.types) for name in sorted(domain.types.parents)}),
+        types=TypeHierarchy({name: _parents(name, domain.types) for name in sorted(kept - {ROOT_TYPE})}),
         constants={},
         actions={name: _action(action) for name, action in domain.actions.items()},
         methods={name: _method(method) for name, method in domain.methods.items()},

@@ -18,7 +18,14 @@ from statehtn.core.top_plans import TopProgress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.hddl.plan_format import read_plan, write_plan
-from statehtn.interop import cost_distributions, from_unified_planning, register, relax, to_unified_planning
+from statehtn.interop import (
+    cost_distributions,
+    from_unified_planning,
+    register,
+    relax,
+    relax_to_pddl,
+    to_unified_planning,
+)
 from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
 from statehtn.planner import plan
@@ -81,6 +88,7 @@ __all__ = [
     "read_plan",
     "register",
     "relax",
+    "relax_to_pddl",
     "tabulate_costs",
     "top_plans",
     "to_unified_planning",

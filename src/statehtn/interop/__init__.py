@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from unified_planning.model.htn import HierarchicalProblem
 
     from statehtn.interop.conversion import Conversion
-    from statehtn.interop.costs import CostParts, CostPart
+    from statehtn.interop.costs import CostPart, CostParts
 
 __all__ = [
     "Conversion",
@@ -26,6 +26,7 @@ __all__ = [
     "from_unified_planning",
     "register",
     "relax",
+    "relax_to_pddl",
     "to_unified_planning",
 ]
 
@@ -83,13 +84,34 @@ def cost_distributions(problem: Problem) -> dict[str, tuple[CostPart, ...]]:
 def relax(problem: Problem, *, attitude: Attitude | str = Attitude.NEUTRAL, alpha: float | None = None) -> UpProblem:
     """Return the relaxed composition model of a problem as a classical problem of unified-planning with action costs.
 
+    Its facts are those of the state, `not ...` for those that must be false somewhere, and `reached ...` for tasks. An
+    action does what it does, reaches its task, and costs its risk cost (10 significant digits, in the domain's unit);
+    a method reaches its task, for nothing, once its subtasks have been reached. The goal is that the initial network
+    has been. Every plan of the problem is one of the model, with a method after its subtasks; what the model forgets
+    is their order and how often they occur. So any admissible estimate for the model is one for the problem. (Paper:
+    `buildRCModel` of Algorithm 5.)
+
+    Args:
+        attitude: neutral, averse or seeking.
+        alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
+
     Raises:
-        UsageError: unified-planning is missing, or the agent's attitude is none.
+        UsageError: unified-planning is missing, or the agent is none.
     """
     _require()
     from statehtn.interop.relaxation import relaxed_problem
 
     return relaxed_problem(problem, attitude, alpha)
+
+
+def relax_to_pddl(
+    problem: Problem, *, attitude: Attitude | str = Attitude.NEUTRAL, alpha: float | None = None
+) -> tuple[str, str]:
+    """Return the relaxed model, as `relax` does, as PDDL text: domain and problem."""
+    model = relax(problem, attitude=attitude, alpha=alpha)
+    from statehtn.interop.relaxation import pddl
+
+    return pddl(model)
 
 
 def register(environment: Environment | None = None) -> None:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, count
+from typing import Any
 
 from statehtn.build.names import WORDS
 from statehtn.model import Problem
@@ -48,6 +49,17 @@ class Vocabulary:
     tasks: Names = field(default_factory=Names)
     methods: Names = field(default_factory=Names)
     objects: Names = field(default_factory=Names)
+    up_types: list[Any] = field(default_factory=list)
+    """UP's types, those of variables that are met later included: UP does not list them, and they have no objects."""
+
+    def our_type(self, kind: Any) -> str:
+        """Return the name here of a type of objects in UP."""
+        if not self.types.knows(kind.name):
+            if kind.father is not None:
+                self.our_type(kind.father)
+            self.types.pair(our_name(kind.name, {self.our_type(one) for one in self.up_types} | {ROOT_TYPE}), kind.name)
+            self.up_types.append(kind)
+        return self.types.ours(kind.name)
 
 
 def our_name(theirs: str, taken: Container[str]) -> str:
@@ -57,15 +69,19 @@ def our_name(theirs: str, taken: Container[str]) -> str:
     return next(candidate for candidate in candidates if candidate not in taken and candidate not in WORDS)
 
 
-def vocabulary_of_up(problem: object) -> Vocabulary:
-    """Return the names for the things of a UP problem."""
+def vocabulary_of_up(problem: Any) -> Vocabulary:
+    """Return the names for the things of a UP problem; a type `object` above all others is ours of that name."""
     vocabulary = Vocabulary()
-    _pair_types(problem, vocabulary.types)
+    roots = [kind for kind in problem.user_types if kind.father is None]
+    if [kind.name for kind in roots] == [ROOT_TYPE]:
+        vocabulary.types.pair(ROOT_TYPE, ROOT_TYPE)
+    for kind in problem.user_types:
+        vocabulary.our_type(kind)
     for names, things in (
-        (vocabulary.fluents, problem.fluents),  # type: ignore[attr-defined]
-        (vocabulary.tasks, [*problem.actions, *problem.tasks]),  # type: ignore[attr-defined]
-        (vocabulary.methods, problem.methods),  # type: ignore[attr-defined]
-        (vocabulary.objects, problem.all_objects),  # type: ignore[attr-defined]
+        (vocabulary.fluents, problem.fluents),
+        (vocabulary.tasks, [*problem.actions, *problem.tasks]),
+        (vocabulary.methods, problem.methods),
+        (vocabulary.objects, problem.all_objects),
     ):
         taken: set[str] = {"total-cost"} if names is vocabulary.fluents else set()
         for thing in things:
@@ -73,20 +89,6 @@ def vocabulary_of_up(problem: object) -> Vocabulary:
             taken.add(name)
             names.pair(name, thing.name)
     return vocabulary
-
-
-def _pair_types(problem: object, names: Names) -> None:
-    """Pair the types; one called `object` that is above all others is ours of that name."""
-    types = list(problem.user_types)  # type: ignore[attr-defined]
-    roots = [kind for kind in types if kind.father is None]
-    taken = {ROOT_TYPE}
-    for kind in types:
-        if roots == [kind] and kind.name == ROOT_TYPE:
-            names.pair(ROOT_TYPE, kind.name)
-            continue
-        name = our_name(kind.name, taken)
-        taken.add(name)
-        names.pair(name, kind.name)
 
 
 def vocabulary_of(problem: Problem) -> Vocabulary:

@@ -50,7 +50,7 @@ def our_type(kind: Any, vocabulary: Vocabulary) -> str:
     """
     if not kind.is_user_type():
         raise UnsupportedError(f"parameters are objects, found one of type '{kind}'")
-    return vocabulary.types.ours(kind.name)
+    return vocabulary.our_type(kind)
 
 
 @dataclass(frozen=True)

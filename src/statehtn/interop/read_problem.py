@@ -35,9 +35,10 @@ def read_up_problem(problem: Any) -> tuple[Problem, Vocabulary]:
     kinds = {vocabulary.objects.ours(one.name): our_type(one.type, vocabulary) for one in problem.all_objects}
     facts, values = read_initial_state(problem, vocabulary)
     scope = Scope.of(vocabulary, problem.task_network.variables)
+    goal = conjunction(map(Scope.of(vocabulary).formula, problem.goals))
     domain = Domain(
         name,
-        TypeHierarchy(dict(_types(problem, vocabulary))),
+        TypeHierarchy(dict(_types(vocabulary))),
         {one: kind for one, kind in kinds.items() if one in named},
         predicates,
         functions,
@@ -53,16 +54,14 @@ def read_up_problem(problem: Any) -> tuple[Problem, Vocabulary]:
         _network(problem.task_network, scope),
         facts,
         values,
-        conjunction(map(Scope.of(vocabulary).formula, problem.goals)),
+        goal,
     )
     return read, vocabulary
 
 
-def _types(problem: Any, vocabulary: Vocabulary) -> Iterator[tuple[str, tuple[str, ...]]]:
-    for kind in problem.user_types:
-        name = vocabulary.types.ours(kind.name)
-        if name != ROOT_TYPE:
-            yield name, (ROOT_TYPE if kind.father is None else vocabulary.types.ours(kind.father.name),)
+def _types(vocabulary: Vocabulary) -> Iterator[tuple[str, tuple[str, ...]]]:
+    for kind in vocabulary.up_types:
+        yield vocabulary.our_type(kind), (ROOT_TYPE if kind.father is None else vocabulary.our_type(kind.father),)
 
 
 def _signature(name: str, parameters: Any, vocabulary: Vocabulary) -> Signature:

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from unified_planning.exceptions import UPTypeError
 from unified_planning.model import Variable
 
 from statehtn.errors import UnsupportedError
@@ -105,11 +104,13 @@ class Writer:
         Raises:
             UnsupportedError: UP does not allow terms of such types.
         """
-        try:
-            return self.things.fluents[name](*map(self.term, terms))
-        except UPTypeError:
+        fluent = self.things.fluents[name]
+        found = tuple(map(self.term, terms))
+        # UP finds that out by itself, but late, and keeps wrong answers where problems share names.
+        if not all(one.type.is_compatible(term.type) for one, term in zip(fluent.signature, found, strict=True)):
             shown = f"({' '.join((name, *terms))})"
-            raise UnsupportedError(f"in {shown} a variable's type is wider than the declaration's; UP forbids it") from None
+            raise UnsupportedError(f"in {shown} a term's type is wider than the declaration's; UP forbids it")
+        return fluent(*found)
 
     def term(self, term: str) -> Any:
         """Return a variable or an object."""

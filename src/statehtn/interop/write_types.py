@@ -20,7 +20,7 @@ def up_types(problem: Problem, names: Names, environment: Any) -> dict[str, Any]
     hierarchy = problem.domain.types
     found: dict[str, Any] = {}
     root = None
-    if ROOT_TYPE in problem.all_objects.values() or any(ROOT_TYPE in one.types for one in _variables(problem)):
+    if ROOT_TYPE in problem.all_objects.values() or any(ROOT_TYPE in one.types for one in variables(problem)):
         root = found[ROOT_TYPE] = environment.type_manager.UserType(names.theirs(ROOT_TYPE))
 
     def declare(name: str) -> Any:
@@ -44,7 +44,7 @@ def _father(name: str, hierarchy: TypeHierarchy) -> str:
     return lowest[0] if lowest else ROOT_TYPE
 
 
-def _variables(problem: Problem) -> Iterator[Parameter]:
+def variables(problem: Problem) -> Iterator[Parameter]:
     """Yield all variables of a problem."""
     domain = problem.domain
     yield from problem.parameters
