@@ -32,6 +32,7 @@ SUPPORTED_KIND = ProblemKind(
         "INT_NUMBERS_IN_ACTIONS_COST",
         "REAL_NUMBERS_IN_ACTIONS_COST",
         "PLAN_LENGTH",
+        "UNDEFINED_INITIAL_NUMERIC",  # as long as no action that can be reached costs it
     },
     version=3,
 )

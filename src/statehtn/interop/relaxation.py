@@ -62,7 +62,9 @@ class _Builder:
             self.add_action(task, action)
         for method in self.ground.methods:
             self.add_method(method)
-        self.up.add_goal(self.reached[self.ground.initial_task])
+        # A problem that grounding has found to be unsolvable has no tasks left.
+        is_left = self.ground.initial_task < len(self.reached)
+        self.up.add_goal(self.reached[self.ground.initial_task] if is_left else self.fact("reached nothing", False))
         self.up.add_quality_metric(MinimizeActionCosts(self.costs))
         return self.up
 
