@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-
 from statehtn.interop.write_types import variables
 from statehtn.model import (
     Action,

@@ -13,20 +13,17 @@ from typing import Any
 
 import pytest
 from hypothesis import assume, given, settings
+from unified_planning.model import InstantaneousAction
+from unified_planning.model.metrics import MinimizeActionCosts
 
 import statehtn
 from statehtn import Problem
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.core.heuristics import HeuristicEvaluator
+from statehtn.interop.relaxation import pddl
 from statehtn.risk import Utility, utility_for
 from tests.differential.test_reference_against_core import ATTITUDES
 from tests.strategies import problems, utilities
-
-pytest.importorskip("unified_planning")
-from unified_planning.model import InstantaneousAction
-from unified_planning.model.metrics import MinimizeActionCosts
-
-from statehtn.interop.relaxation import pddl
 
 relaxation = pytest.importorskip("pyperplan.heuristics.relaxation")
 pyperplan_task = pytest.importorskip("pyperplan.task")
@@ -150,4 +147,3 @@ def test_landmark_cuts_never_exceed_the_optimum_of_the_delete_relaxation(
     problem: Problem, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     check_bounds(problem, tmp_path_factory.mktemp("pddl"))
-

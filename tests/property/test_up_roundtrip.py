@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import statehtn
 from statehtn import Problem, Status, UnsupportedError, validate
+from statehtn.interop.conversion import Conversion
 from statehtn.model import Equals, Not
 from statehtn.model.cost_law import is_unconditional
 from tests.differential.oracles import close_to, solve_or_drop
 from tests.normal_form import normal_form
 from tests.strategies import problems, utilities
-
-pytest.importorskip("unified_planning")
-from statehtn.interop.conversion import Conversion
 
 
 @st.composite
@@ -74,4 +71,3 @@ def test_plans_go_both_ways(problem: Problem, utility: object) -> None:
         ours = back.plan_from_up(theirs)
         assert (ours.steps, ours.roots) == (mirrored.plan.steps, mirrored.plan.roots)
         assert validate(problem, conversion.plan_from_up(theirs)).valid
-

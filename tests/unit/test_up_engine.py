@@ -14,11 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
-import statehtn
-from statehtn import CostDistribution
-
-up = pytest.importorskip("unified_planning.shortcuts")
+import unified_planning.shortcuts as up
 from unified_planning.engines import PlanGenerationResultStatus as S
 from unified_planning.engines.results import ValidationResultStatus
 from unified_planning.exceptions import UPNoSuitableEngineAvailableException, UPUsageError
@@ -26,6 +22,8 @@ from unified_planning.model.htn import HierarchicalProblem, Method
 from unified_planning.plans import ActionInstance, HierarchicalPlan, SequentialPlan
 from unified_planning.test.examples.hierarchical import get_example_problems
 
+import statehtn
+from statehtn import CostDistribution
 from statehtn.engine import ADMISSIBLE, StateHtnEngine
 
 up.get_environment().credits_stream = None
@@ -118,7 +116,7 @@ def test_unknown_arguments_are_warned_of() -> None:
     with pytest.warns(UserWarning, match="ignores the unknown parameter 'speed'"):
         engine = StateHtnEngine(speed=3)
     with pytest.warns(UserWarning, match="ignores the argument 'heuristic'"):
-        engine.solve(problem(), heuristic=lambda state: 0)
+        engine.solve(problem(), heuristic=len)
     with pytest.warns(UserWarning, match="ignores the argument 'warm_start_plan'"):
         list(engine.get_solutions(problem(), warm_start_plan=SequentialPlan([])))
     with warnings.catch_warnings():
@@ -297,4 +295,6 @@ def test_without_up(tmp_path: Path) -> None:
     for line in ("statehtn.register()", "statehtn.from_unified_planning(None)", "import statehtn.engine"):
         run = in_a_process(tmp_path, "-c", code + line)
         last = run.stderr.splitlines()[-1]
-        assert re.fullmatch(r"statehtn.errors.UsageError: .* needs the package 'unified-planning': pip install .*", last)
+        assert re.fullmatch(
+            r"statehtn.errors.UsageError: .* needs the package 'unified-planning': pip install .*", last
+        )

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from unified_planning.model import Problem as UpProblem
     from unified_planning.model.htn import HierarchicalProblem
 
+    from statehtn.build import CostPart
     from statehtn.interop.conversion import Conversion
-    from statehtn.interop.costs import CostPart, CostParts
+    from statehtn.interop.costs import CostParts
 
 __all__ = [
     "Conversion",

@@ -33,7 +33,9 @@ class Conversion:
     names: Vocabulary
 
     @staticmethod
-    def from_up(up_problem: HierarchicalProblem, cost_distributions: Mapping[Any, CostParts] | None = None) -> Conversion:
+    def from_up(
+        up_problem: HierarchicalProblem, cost_distributions: Mapping[Any, CostParts] | None = None
+    ) -> Conversion:
         """Convert a problem of UP; arguments and errors are those of `statehtn.from_unified_planning`."""
         if not isinstance(up_problem, HierarchicalProblem):
             raise UsageError(f"expected a HierarchicalProblem of unified-planning, found a {type(up_problem).__name__}")

@@ -49,7 +49,7 @@ def with_distributions(problem: Problem, distributions: Mapping[Any, CostParts],
         raise UsageError(f"cost_distributions is a mapping from names of actions to costs, found {distributions!r}")
     builder = ProblemBuilder.of(problem)
     for action, parts in distributions.items():
-        theirs = getattr(action, "name", action)
+        theirs: str = action if isinstance(action, str) else getattr(action, "name", repr(action))
         name = names.ours(theirs) if names.knows(theirs) else theirs
         builder.set_cost(name, *(parts if isinstance(parts, tuple | list) else (parts,)))  # type: ignore[arg-type]
     return builder.build()

@@ -42,7 +42,7 @@ class Names:
 
 @dataclass(frozen=True, slots=True)
 class Vocabulary:
-    """The names of a problem on both sides; actions and compound tasks are `tasks`, predicates and functions `fluents`."""
+    """The names of a problem on both sides: `tasks` of actions, too, `fluents` of predicates and functions."""
 
     types: Names = field(default_factory=Names)
     fluents: Names = field(default_factory=Names)

@@ -28,7 +28,9 @@ def read_actions(problem: Any, vocabulary: Vocabulary, named: set[str]) -> dict[
     found = {}
     for action in problem.actions:
         if type(action).__name__ != "InstantaneousAction" or action.simulated_effect is not None:
-            raise UnsupportedError(f"action '{action.name}' is not an instantaneous action with effects that are written")
+            raise UnsupportedError(
+                f"action '{action.name}' is not an instantaneous action with effects that are written"
+            )
         scope = Scope.of(vocabulary, action.parameters, named)
         name = vocabulary.tasks.ours(action.name)
         cost = _cost(action, problem, scope)
@@ -58,7 +60,7 @@ def _cost(action: Any, problem: Any, scope: Scope) -> Expression | None:
         raise UnsupportedError(f"the metric is MinimizeActionCosts or MinimizeSequentialPlanLength, found {shown}")
     cost = metrics[0].costs.get(action)
     default = metrics[0].default
-    if cost is None and (default is None or default.is_int_constant() and default.constant_value() == 0):
+    if cost is None and (default is None or (default.is_int_constant() and default.constant_value() == 0)):
         return None
     return scope.cost(default if cost is None else cost)
 

@@ -131,7 +131,7 @@ class Scope:
         return Exists(values, And((*facts, formula))) if values else formula
 
     def terms(self, nodes: Iterable[Any]) -> tuple[tuple[str, ...], tuple[Parameter, ...], tuple[Formula, ...]]:
-        """Return the terms that expressions of UP are, with variables for the values of fluents and what defines them."""
+        """Return expressions of UP as terms, with variables for the values of fluents and what defines these."""
         terms: list[str] = []
         values: list[Parameter] = []
         facts: list[Formula] = []

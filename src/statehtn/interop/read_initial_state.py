@@ -33,7 +33,7 @@ def read_initial_state(problem: Any, vocabulary: Vocabulary) -> tuple[frozenset[
         if default is None and not is_number and len(stated) < _size(fluent, problem):
             raise UnsupportedError(f"fluent '{fluent.name}' has no initial value for some objects; give it a default")
         if default is not None and not default.is_false():
-            stated = {arguments: default for arguments in _instances(fluent, problem)} | stated
+            stated = dict.fromkeys(_instances(fluent, problem), default) | stated
         for arguments, value in stated.items():
             fact = (name, *map(vocabulary.objects.ours, arguments))
             if is_number:

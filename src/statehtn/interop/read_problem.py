@@ -110,9 +110,7 @@ def _network(network: Any, scope: Scope) -> TaskNetwork:
         name = scope.vocabulary.tasks.ours(subtask.task.name)
         subtasks.append(Subtask(labels[-1], name, tuple(map(scope.term, subtask.parameters))))
     ordering = tuple(dict.fromkeys(_pair(one, positions) for one in network.temporal_constraints()))
-    return TaskNetwork(
-        tuple(subtasks), ordering, conjunction(map(scope.formula, network.non_temporal_constraints()))
-    )
+    return TaskNetwork(tuple(subtasks), ordering, conjunction(map(scope.formula, network.non_temporal_constraints())))
 
 
 def _pair(constraint: Any, positions: dict[str, int]) -> tuple[int, int]:
@@ -124,7 +122,8 @@ def _pair(constraint: Any, positions: dict[str, int]) -> tuple[int, int]:
     sides = [side.timing() for side in constraint.args if side.is_timing_exp()]
     if constraint.is_lt() and len(sides) == 2 and not any(side.delay for side in sides):
         first, second = (side.timepoint for side in sides)
-        if first.kind.name == "END" and second.kind.name == "START":
-            if first.container in positions and second.container in positions:
-                return positions[first.container], positions[second.container]
+        if (first.kind.name, second.kind.name) == ("END", "START") and {first.container, second.container} <= set(
+            positions
+        ):
+            return positions[first.container], positions[second.container]
     raise UnsupportedError(f"subtasks are ordered by 'one ends before another starts' alone, found '{constraint}'")

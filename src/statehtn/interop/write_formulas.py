@@ -35,9 +35,9 @@ class Things:
 
     problem: Problem
     manager: Any
-    types: Mapping[str, Any]
-    fluents: Mapping[str, Any]
-    objects: Mapping[str, Any]
+    types: dict[str, Any]
+    fluents: dict[str, Any]
+    objects: dict[str, Any]
 
     def type_of(self, parameter: Parameter) -> Any:
         """Return UP's type of a variable.
@@ -135,4 +135,6 @@ class Writer:
             case Arithmetic("-", (first, *rest)):
                 subtrahend = self.cost(rest[0]) if len(rest) == 1 else manager.Plus(*map(self.cost, rest))
                 return manager.Minus(self.cost(first), subtrahend)
-        raise UnsupportedError(f"a cost is a number, a function of the parameters, or + - * of them, found {expression}")
+        raise UnsupportedError(
+            f"a cost is a number, a function of the parameters, or + - * of them, found {expression}"
+        )
