@@ -35,9 +35,7 @@ def repository_problem(name: str) -> Problem:
     return statehtn.read_hddl(DOMAINS / domain / "domain.hddl", DOMAINS / domain / f"{problem}.hddl")
 
 
-@pytest.mark.parametrize(
-    "name", ["marine/p1", "marine/p2", "satellite/RA-3obs-1sat-3mod", "satellite/RA-4obs-1sat-3mod-unordered"]
-)
+@pytest.mark.parametrize("name", ["marine/p1", "satellite/RA-3obs-1sat-3mod", "satellite/RA-4obs-1sat-3mod-unordered"])
 def test_domains_of_the_repository_there_and_back(name: str) -> None:
     problem = repository_problem(name)
     distributions = statehtn.cost_distributions(problem)

@@ -122,8 +122,7 @@ def _pair(constraint: Any, positions: dict[str, int]) -> tuple[int, int]:
     sides = [side.timing() for side in constraint.args if side.is_timing_exp()]
     if constraint.is_lt() and len(sides) == 2 and not any(side.delay for side in sides):
         first, second = (side.timepoint for side in sides)
-        if (first.kind.name, second.kind.name) == ("END", "START") and {first.container, second.container} <= set(
-            positions
-        ):
+        is_order = (first.kind.name, second.kind.name) == ("END", "START")
+        if is_order and {first.container, second.container} <= set(positions):
             return positions[first.container], positions[second.container]
     raise UnsupportedError(f"subtasks are ordered by 'one ends before another starts' alone, found '{constraint}'")
