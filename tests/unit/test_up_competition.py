@@ -74,8 +74,9 @@ def constraints_as_preconditions(problem: Problem) -> Problem:
 
 
 @pytest.mark.parametrize("name", ACCEPTED)
-def test_plans_are_accepted_by_aries(name: str) -> None:
+def test_plans_are_accepted_by_aries(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     aries = pytest.importorskip("up_aries")
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))  # it leaves its logs there
     problem = constraints_as_preconditions(smallest(Path(FOLDER) / name))
     conversion = Conversion.to_up(problem)
     result = statehtn.plan(problem, search="greedy", time_limit=60)
