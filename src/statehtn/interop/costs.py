@@ -51,7 +51,7 @@ def with_distributions(problem: Problem, distributions: Mapping[Any, CostParts],
     for action, parts in distributions.items():
         theirs: str = action if isinstance(action, str) else getattr(action, "name", repr(action))
         name = names.ours(theirs) if names.knows(theirs) else theirs
-        builder.set_cost(name, *(parts if isinstance(parts, tuple | list) else (parts,)))  # type: ignore[arg-type]
+        builder.set_cost(name, *(parts if isinstance(parts, tuple | list) else (parts,)))
     return builder.build()
 
 
