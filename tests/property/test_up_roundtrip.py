@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import statehtn
 from statehtn import Problem, Status, UnsupportedError, validate
+from statehtn.engine import StateHtnEngine
 from statehtn.interop.conversion import Conversion
 from statehtn.model import Equals, Not
 from statehtn.model.cost_law import is_unconditional
@@ -49,6 +50,7 @@ def test_round_trip(problem: Problem) -> None:
     up_problem = to_up_or_drop(problem).up_problem
     back = statehtn.from_unified_planning(up_problem, statehtn.cost_distributions(problem))
     assert normal_form(back) == normal_form(problem)
+    assert StateHtnEngine.supports(up_problem.kind)
     again = statehtn.to_unified_planning(back)
     assert set(again.actions) == set(up_problem.actions)
     assert set(again.methods) == set(up_problem.methods)

@@ -9,7 +9,9 @@ from typing import Any
 import pytest
 import unified_planning.shortcuts as up
 from unified_planning.model.htn import HierarchicalProblem, Method
-from unified_planning.plans import SequentialPlan
+from unified_planning.plans import HierarchicalPlan, SequentialPlan
+from unified_planning.plans.hierarchical_plan import Decomposition as UpDecomposition
+from unified_planning.plans.hierarchical_plan import MethodInstance
 from unified_planning.test.examples.hierarchical import get_example_problems
 
 import statehtn
@@ -263,6 +265,11 @@ def test_plans_that_do_not_fit() -> None:
     other = Conversion.from_up(get_example_problems()["htn-go"].problem)
     with pytest.raises(InputError, match="'walk', which the problem does not know"):
         other.plan_from_up(theirs)
+    (identifier,) = theirs.decomposition.subtasks
+    instance = theirs.decomposition.subtasks[identifier]
+    short = MethodInstance(instance.method, instance.parameters[:1], instance.decomposition)
+    with pytest.raises(InputError, match="method 'on-foot' has 2 parameters, found"):
+        conversion.plan_from_up(HierarchicalPlan(theirs.action_plan, UpDecomposition({identifier: short})))
     (root,) = plan.roots
     assert isinstance(root, Decomposition)
     with pytest.raises(UsageError, match="does not tell the arguments of its methods"):

@@ -95,6 +95,8 @@ class _Reader:
             method = self.problem.method(instance.method.name)
             task = method.achieved_task
             bindings = self._objects(instance.parameters)
+            if len(bindings) != len(method.parameters):
+                raise InputError(f"method '{method.name}' has {len(method.parameters)} parameters, found {instance}")
             values = dict(zip((one.name for one in method.parameters), bindings, strict=True))
             methods[id(instance)] = Decomposition(
                 self.names.tasks.ours(task.task.name),
