@@ -18,6 +18,14 @@ from statehtn.core.top_plans import TopProgress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.hddl.plan_format import read_plan, write_plan
+from statehtn.interop import (
+    cost_distributions,
+    from_unified_planning,
+    register,
+    relax,
+    relax_to_pddl,
+    to_unified_planning,
+)
 from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
 from statehtn.planner import plan
@@ -68,16 +76,22 @@ __all__ = [
     "__version__",
     "chance",
     "compare_attitudes",
+    "cost_distributions",
     "equal",
     "exists",
     "forall",
+    "from_unified_planning",
     "plan",
     "read_costs",
     "read_hddl",
     "read_hddl_text",
     "read_plan",
+    "register",
+    "relax",
+    "relax_to_pddl",
     "tabulate_costs",
     "top_plans",
+    "to_unified_planning",
     "utility_for",
     "validate",
     "when",

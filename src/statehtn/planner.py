@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from statehtn.core.grounding import Grounding, ground
 from statehtn.core.plan_based import search_plans
-from statehtn.core.search import Progress, SearchOutcome, find_plans
+from statehtn.core.search import Progress, SearchOutcome, improving_plans, last_of
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import InternalError
 from statehtn.hddl import read_hddl
@@ -69,6 +69,26 @@ def plan(
     query = Query.of(attitude, alpha, solver, heuristic, search, weight, branch)
     limits = Limits.starting_now(time_limit, memory_limit)
     return _solve(problem, query, limits, progress, Statistics())
+
+
+def improving(
+    problem: Problem,
+    *,
+    attitude: Attitude | str = Attitude.NEUTRAL,
+    alpha: float | None = None,
+    heuristic: str | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    progress: ProgressCallback | None = None,
+) -> Iterator[Result]:
+    """Search as `plan` does with `search="anytime"`, and yield each better plan when it is found.
+
+    The last result is what `plan` returns. Arguments and errors are those of `plan`; the time between two results
+    that the caller takes counts, too.
+    """
+    query = Query.of(attitude, alpha, heuristic=heuristic, search="anytime")
+    limits = Limits.starting_now(time_limit, memory_limit)
+    return _solutions(problem, query, limits, progress, Statistics(), every_plan=True)
 
 
 def plan_files(
@@ -164,34 +184,56 @@ def measured_ground(problem: Problem, limits: Limits, statistics: Statistics) ->
 def _solve(
     problem: Problem, query: Query, limits: Limits, progress: ProgressCallback | None, statistics: Statistics
 ) -> Result:
-    """Ground, search and validate."""
+    """Ground, search and validate; return how it ended."""
+    return last_of(_solutions(problem, query, limits, progress, statistics, every_plan=False))
+
+
+def _solutions(
+    problem: Problem,
+    query: Query,
+    limits: Limits,
+    progress: ProgressCallback | None,
+    statistics: Statistics,
+    every_plan: bool,
+) -> Iterator[Result]:
+    """Ground and search; validate and yield plans, each better than those before, and last how the run ended."""
     grounding, statistics = measured_ground(problem, limits, statistics)
     if isinstance(grounding, Status):
-        return no_plan(query, grounding, statistics)
+        yield no_plan(query, grounding, statistics)
+        return
     start = time.perf_counter()
-    try:
-        outcome = _search(grounding, query, limits, progress)
-    except ENDINGS as ending:
-        return no_plan(query, status_of(ending), replace(statistics, search_seconds=time.perf_counter() - start))
-    statistics = replace(
-        statistics,
-        expanded=outcome.expanded,
-        generated=outcome.generated,
-        evaluated=outcome.evaluated,
-        dead_ends=outcome.dead_ends,
-        search_seconds=time.perf_counter() - start,
-    )
-    result = no_plan(query, outcome.status, statistics, outcome.lower_bound)
-    if outcome.plan is None:
-        return result
-    plan, steps = priced_plan(problem, outcome.plan, query.utility)
-    return replace(result, plan=plan, steps=steps)
+    latest: Result | None = None
+    outcomes = _search(grounding, query, limits, progress, every_plan)
+    while True:
+        try:
+            outcome = next(outcomes, None)
+        except ENDINGS as ending:
+            spent = replace(statistics, search_seconds=time.perf_counter() - start)
+            yield no_plan(query, status_of(ending), spent) if latest is None else latest
+            return
+        if outcome is None:
+            return
+        spent = replace(
+            statistics,
+            expanded=outcome.expanded,
+            generated=outcome.generated,
+            evaluated=outcome.evaluated,
+            dead_ends=outcome.dead_ends,
+            search_seconds=time.perf_counter() - start,
+        )
+        latest = no_plan(query, outcome.status, spent, outcome.lower_bound)
+        if outcome.plan is not None:
+            plan, steps = priced_plan(problem, outcome.plan, query.utility)
+            latest = replace(latest, plan=plan, steps=steps)
+        yield latest
 
 
-def _search(grounding: Grounding, query: Query, limits: Limits, progress: ProgressCallback | None) -> SearchOutcome:
-    """Run the solver that is asked for."""
+def _search(
+    grounding: Grounding, query: Query, limits: Limits, progress: ProgressCallback | None, every_plan: bool
+) -> Iterator[SearchOutcome]:
+    """Run the solver that is asked for; yield every better plan, or how the run ended only."""
     if query.solver == "plan":
-        return search_plans(
+        yield search_plans(
             grounding,
             query.utility,
             heuristic=query.heuristic,
@@ -199,7 +241,8 @@ def _search(grounding: Grounding, query: Query, limits: Limits, progress: Progre
             limits=limits,
             progress=progress,
         )
-    return find_plans(
+        return
+    outcomes = improving_plans(
         grounding,
         query.utility,
         heuristic=query.heuristic,
@@ -208,6 +251,10 @@ def _search(grounding: Grounding, query: Query, limits: Limits, progress: Progre
         limits=limits,
         progress=progress,
     )
+    if every_plan:
+        yield from outcomes
+    else:
+        yield last_of(outcomes)
 
 
 def priced_plan(problem: Problem, found: Plan, utility: Utility) -> tuple[Plan, tuple[PricedStep, ...]]:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from types import MappingProxyType
+from typing import TypeVar
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
@@ -124,6 +126,15 @@ class SearchOutcome:
     dead_ends: int
 
 
+Item = TypeVar("Item")
+
+
+def last_of(items: Iterable[Item]) -> Item:
+    """Return the last of one or more items; keep none of the others."""
+    (last,) = deque(items, maxlen=1)
+    return last
+
+
 def find_plans(
     grounding: Grounding,
     utility: Utility,
@@ -152,6 +163,35 @@ def find_plans(
         UnsupportedError: the costs of a plan exceed the range of fixed point, some 10^6 times the largest cost of an
             action.
     """
+    return last_of(
+        improving_plans(
+            grounding,
+            utility,
+            heuristic=heuristic,
+            search=search,
+            weight=weight,
+            limits=limits,
+            progress=progress,
+            switches=switches,
+        )
+    )
+
+
+def improving_plans(
+    grounding: Grounding,
+    utility: Utility,
+    *,
+    heuristic: str = PORTFOLIO,
+    search: str = "anytime",
+    weight: float = 1.0,
+    limits: Limits = Limits(),
+    progress: Callable[[Progress], None] | None = None,
+    switches: SearchSwitches = SearchSwitches(),
+) -> Iterator[SearchOutcome]:
+    """Search as `find_plans`, and yield an outcome after every stage that found a better plan, and at the end.
+
+    All but the last have the status `SOLVED`. Only `anytime` has several stages that find plans.
+    """
     run = StagedRun(grounding, price(grounding.laws, utility, grounding.action_text), limits, progress)
     size = max(1, grounding.handle.action_count + grounding.handle.method_count)
     for stage in SEARCHES[search]:
@@ -176,9 +216,12 @@ def find_plans(
         options.use_stubborn_sets = switches.stubborn_sets
         options.forget_facts = switches.forget_facts
         options.follow_forced = switches.follow_forced
+        best = run.best
         if run.stage(options):
             break
-    return run.outcome()
+        if run.best is not best:
+            yield replace(run.outcome(), status=Status.SOLVED)
+    yield run.outcome()
 
 
 class StagedRun:
