@@ -11,36 +11,36 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.search import SEARCHES, Progress
-from statehtn.core.top_plans import TopProgress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
-from statehtn.hddl.plan_format import read_plan, write_plan
-from statehtn.interop import (
-    cost_distributions,
-    from_unified_planning,
-    register,
-    relax,
-    relax_to_pddl,
-    to_unified_planning,
-)
 from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
 from statehtn.planner import plan
 from statehtn.query import SOLVERS
 from statehtn.result import PricedStep, Result
 from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
-from statehtn.tabulate import tabulate_costs
-from statehtn.top_planner import top_plans
-from statehtn.top_result import RankedPlan, TopPlans
 from statehtn.validate import Validation, validate
 
 if TYPE_CHECKING:
     from statehtn.attitudes import AttitudeComparison, compare_attitudes
+    from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
+    from statehtn.core.top_plans import TopProgress
+    from statehtn.hddl.plan_format import read_plan, write_plan
+    from statehtn.interop import (
+        cost_distributions,
+        from_unified_planning,
+        register,
+        relax,
+        relax_to_pddl,
+        to_unified_planning,
+    )
+    from statehtn.tabulate import tabulate_costs
+    from statehtn.top_planner import top_plans
+    from statehtn.top_result import RankedPlan, TopPlans
 
 __all__ = [
     "HEURISTICS",
@@ -100,21 +100,36 @@ __all__ = [
     "write_plan",
 ]
 
-_LATER = {
-    "AttitudeComparison": "statehtn.attitudes",
-    "CostTable": "statehtn.build.cost_table",
-    "compare_attitudes": "statehtn.attitudes",
-    "read_costs": "statehtn.build.cost_file",
+_MODULES_FOR_LATER = {
+    "attitudes": ("AttitudeComparison", "compare_attitudes"),
+    "build": ("ProblemBuilder", "chance", "equal", "exists", "forall", "when", "with_cost"),
+    "build.cost_file": ("read_costs",),
+    "build.cost_table": ("CostTable",),
+    "core.top_plans": ("TopProgress",),
+    "hddl.plan_format": ("read_plan", "write_plan"),
+    "interop": (
+        "cost_distributions",
+        "from_unified_planning",
+        "register",
+        "relax",
+        "relax_to_pddl",
+        "to_unified_planning",
+    ),
+    "tabulate": ("tabulate_costs",),
+    "top_planner": ("top_plans",),
+    "top_result": ("RankedPlan", "TopPlans"),
 }
-"""Names that few need, and where they are."""
+"""Where the names are that not every program needs; their modules are imported when one of them is asked for."""
+_LATER = {name: f"statehtn.{module}" for module, names in _MODULES_FOR_LATER.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    """Look up what few need, and what takes its time, when it is asked for."""
+    """Look up what not every program needs when it is asked for."""
     if name in _LATER:
         from importlib import import_module
 
-        return getattr(import_module(_LATER[name]), name)
+        value = globals()[name] = getattr(import_module(_LATER[name]), name)
+        return value
     if name != "__version__":
         raise AttributeError(f"module 'statehtn' has no attribute '{name}'")
     from importlib.metadata import PackageNotFoundError, version
@@ -123,3 +138,8 @@ def __getattr__(name: str) -> Any:
         return version("statehtn")
     except PackageNotFoundError:
         return "0 (not installed)"
+
+
+def __dir__() -> list[str]:
+    """Return the public names, those that are imported later included."""
+    return sorted(__all__)

@@ -90,7 +90,7 @@ def test_attitudes_and_distributions() -> None:
         ({"attitude": "brave"}, "brave"),
         ({"attitude": "averse"}, "alpha"),
         ({"attitude": "averse", "alpha": "much"}, "much"),
-        ({"heuristic": "ff"}, "one of auto, blind, tdg, hmax, lmcut, potential, found 'ff'"),
+        ({"heuristic": "ff"}, "one of auto, blind, tdg, hmax, lmcut, potential, potential-hmax, found 'ff'"),
         ({"heuristic": "nothing"}, "found 'nothing'"),
         ({"memory_limit": -1}, "memory"),
     ],
