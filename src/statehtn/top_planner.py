@@ -25,7 +25,7 @@ TopProgressCallback = Callable[[TopProgress], None]
 
 TOP_HEURISTICS = tuple(name for name, info in HEURISTICS.items() if info.admissible)
 """The heuristics that a search for the best plans can take."""
-DEFAULT_TOP_HEURISTIC = "lmcut"
+DEFAULT_TOP_HEURISTIC = "potential"
 MOST_PLANS = 1_000_000_000
 SECONDS_TO_VALIDATE = 2.0
 """So long after the time limit, or after what ended the search before, plans are still validated."""
@@ -88,7 +88,7 @@ def top_plans(
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         distinct: `sequence`: plans differ if their sequences of actions do; `multiset`: plans with the same actions in
             another order are one, the cheapest of them.
-        heuristic: the name of an admissible heuristic in `HEURISTICS`; `lmcut` where none is given.
+        heuristic: the name of an admissible heuristic in `HEURISTICS`; `potential` where none is given.
         time_limit: seconds, for grounding and search together. Every plan is validated after the search; those that
             are not two seconds after the limit, or after an interruption, are left out.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
