@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
+from statehtn.core.heuristics import HEURISTICS, PORTFOLIO, WEIGHTED
 from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS
 from statehtn.core.search import SEARCHES
 from statehtn.errors import UsageError
@@ -78,7 +78,7 @@ def default_heuristic(solver: str, search: str) -> str:
     """Return the heuristic that is taken where none is given."""
     if solver == "plan":
         return PLAN_BASED_HEURISTICS[0]
-    return {"greedy": "ff", "weighted": "lmcut"}.get(search, PORTFOLIO)
+    return {"greedy": "ff", "weighted": WEIGHTED}.get(search, PORTFOLIO)
 
 
 def mismatch(solver: str, heuristic: str | None, search: str) -> str | None:

@@ -111,7 +111,7 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
     search.add_argument(
         "--heuristic",
         choices=HEURISTIC_CHOICES,
-        help="default: auto; ff for greedy and lmcut for weighted search; tdg for the solver plan",
+        help="default: auto; ff for greedy and potential-hmax for weighted search; tdg for the solver plan",
     )
     search.add_argument(
         "--search",

@@ -91,6 +91,10 @@ PORTFOLIO = "auto"
 and with `potential-hmax`, `potential` and `lmcut` one after the other."""
 
 
+WEIGHTED = "potential-hmax"
+"""The heuristic of weighted search where none is named: it tells most for its time."""
+
+
 class HeuristicEvaluator:
     """A heuristic on its own, for states and networks of the caller's choice."""
 

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
+from statehtn.core.heuristics import HEURISTICS, PORTFOLIO, WEIGHTED
 from statehtn.core.pricing import Prices, price
 from statehtn.core.trace import read_trace
 from statehtn.errors import UnsupportedError
@@ -203,7 +203,7 @@ def improving_plans(
         if name == PORTFOLIO and stage.algorithm is _relax.SearchAlgorithm.AStar:
             options.algorithm = _relax.SearchAlgorithm.Portfolio
         else:
-            options.heuristic = HEURISTICS["lmcut" if name == PORTFOLIO else name].kind
+            options.heuristic = HEURISTICS[WEIGHTED if name == PORTFOLIO else name].kind
         options.weight = stage.weight or weight
         options.most_evaluations = stage.most_evaluations
         options.explores = stage.explores
