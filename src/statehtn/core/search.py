@@ -122,6 +122,8 @@ class SearchOutcome:
     generated: int
     evaluated: int
     dead_ends: int
+    cuts: int
+    """Landmark cuts of all evaluations together."""
 
 
 def find_plans(
@@ -255,6 +257,7 @@ class StagedRun:
             sum(one.generated for one in self.done),
             sum(one.evaluated for one in self.done),
             sum(one.dead_ends for one in self.done),
+            sum(one.cuts for one in self.done),
         )
 
     def cost(self, units: int | None) -> float | None:
