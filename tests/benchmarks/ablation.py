@@ -131,11 +131,12 @@ def main() -> None:
     text = "\n".join(ablation_table(found, limits))
     print(f"\n{text}\n" + "\n".join(section("Another optimal cost", wrong, markdown=False)))
     if options.markdown:
+        only = f" (only {options.only})" if options.only else ""
         chosen_text = (
             f"{len(chosen)} problems that take the complete configuration {LEAST_SECONDS:g} to {MOST_SECONDS:g} s"
         )
         other = "\n".join(section("Another optimal cost", wrong, markdown=True))
-        head = f"# Ablation: figures\n\n{machine()}. {chosen_text}."
+        head = f"# Ablation: figures\n\n{machine()}. {chosen_text}{only}."
         options.markdown.write_text(f"{head}\n\n{text}\n{other}\n", encoding="utf-8")
     raise SystemExit(1 if wrong else 0)
 

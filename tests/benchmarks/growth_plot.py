@@ -1,4 +1,4 @@
-"""The figure of `tests.benchmarks.growth`: time and memory against size, both axes logarithmic."""
+"""The figure of `tests.benchmarks.growth`: time, nodes and memory against size, both axes logarithmic."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tests.benchmarks.growth import MEASURES, Measure, fit, points
 from tests.benchmarks.search_case import Row
 
 LOOKS = (("#0072b2", "o"), ("#d55e00", "s"), ("#009e73", "^"))
-SIZE = (9.0, 4.2)  # inches
+SIZE = (11.0, 3.8)  # inches
 
 
 def draw(found: dict[str, list[Row]], files: list[Path]) -> None:
@@ -19,7 +19,7 @@ def draw(found: dict[str, list[Row]], files: list[Path]) -> None:
     from matplotlib import pyplot
 
     with matplotlib.rc_context({"svg.hashsalt": "growth", "font.size": 9}):
-        figure, panels = pyplot.subplots(1, len(MEASURES), figsize=SIZE, layout="constrained")
+        figure, panels = pyplot.subplots(1, len(MEASURES), figsize=SIZE, sharex=True, layout="constrained")
         for axes, what in zip(panels, MEASURES, strict=True):
             for (name, rows), (colour, marker) in zip(found.items(), LOOKS, strict=False):
                 _family(axes, name, rows, what, colour, marker)

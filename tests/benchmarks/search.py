@@ -97,7 +97,8 @@ def report(rows: list[Row], options: argparse.Namespace, bandwidth: float, markd
     """Yield the lines of the report."""
     limit = "" if math.isinf(options.most_seconds) else f", at most {options.most_seconds:g} s for each search"
     off = f", without {', '.join(options.without)}" if options.without else ""
-    yield f"{machine()}; {bandwidth / 1e9:.1f} GB/s read from memory. Heuristic {options.heuristic}{off}{limit}."
+    only = f", only {options.only}" if options.only else ""
+    yield f"{machine()}; {bandwidth / 1e9:.1f} GB/s read from memory. Heuristic {options.heuristic}{off}{limit}{only}."
     yield ""
     yield from summary(rows, markdown)
     for title, lines in (("Times", domain_table(rows)), ("Effort", effort_table(rows, bandwidth))):

@@ -125,7 +125,7 @@ def test_fit_finds_the_exponent_of_a_power(exponent: float, factor: float, sizes
 
 def test_growth_leaves_out_what_is_unsolved_or_too_short() -> None:
     row = Row("F", "p", "optimal", search_seconds=0.1, actions=60, methods=40)
-    rows = [row, replace(row, search_seconds=1e-4), replace(row, status="time-limit")]
+    rows = [row, replace(row, search_seconds=1e-5), replace(row, status="time-limit")]
     assert points(rows, MEASURES[0]) == [(100, 0.1)]
     assert fit(points(rows, MEASURES[0])) is None
     assert cells(list(exponent_table({"F": rows}))[2]) == ["F", "seconds of search", "too few problems", "1", ""]
