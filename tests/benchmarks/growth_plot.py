@@ -27,7 +27,7 @@ def draw(found: dict[str, list[Row]], files: list[Path]) -> None:
             axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
             axes.spines[["top", "right"]].set_visible(False)
             if axes.has_data():
-                axes.legend(frameon=False)
+                axes.legend(frameon=False, loc="lower left", bbox_to_anchor=(0, 1))
         for file in files:
             figure.savefig(file, dpi=150, metadata={"Date": None} if file.suffix == ".svg" else None)
         pyplot.close(figure)
