@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import os
 from pathlib import Path
 
 import nox
@@ -53,6 +55,30 @@ def core(session: nox.Session) -> None:
             session.run("cmake", "--preset", preset, silent=True)
             session.run("cmake", "--build", "--preset", preset, silent=True)
         session.run("ctest", "--preset", "sanitize")
+
+
+@nox.session(venv_backend="virtualenv")
+def sanitize(session: nox.Session) -> None:
+    """Build the Python module with the sanitizers of the core, and run tests with it (some minutes).
+
+    It has an environment of its own, so that this module never takes the place of the usual one. Without arguments for
+    pytest it runs the paper's tables and the random problems of the differential tests.
+    """
+    presets = json.loads(Path("relax/CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
+    flags = next(preset["cacheVariables"] for preset in presets if preset["name"] == "sanitize")["CMAKE_CXX_FLAGS"]
+    install(session, "build")
+    session.install("hypothesis>=6.100", "pyperplan>=2.1", "pytest>=8")
+    settings = {"build-dir": "build/sanitize-module", "cmake.build-type": "Debug", "install.strip": "false"}
+    settings["cmake.define.CMAKE_CXX_FLAGS"] = flags
+    session.install("--no-build-isolation", *(f"-C{name}={value}" for name, value in settings.items()), ".")
+    compiler = os.environ.get("CXX", "c++")
+    # Python itself is not sanitized: the library must be there before it starts. It keeps memory at its exit.
+    library = str(session.run(compiler, "-print-file-name=libasan.so", external=True, silent=True)).strip()
+    if not Path(library).is_absolute():
+        session.error(f"{compiler} has no libasan.so; set CXX to g++, remove build/sanitize-module and try again")
+    env = {"LD_PRELOAD": library, "ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1"}
+    chosen = session.posargs or ["tests/regression", "tests/differential"]
+    session.run("python", "-m", "pytest", "-p", "no:cacheprovider", *chosen, env=env)
 
 
 @nox.session

@@ -48,6 +48,8 @@ public:
         return heuristic_->evaluate({state, tasks, bound});
     }
 
+    std::size_t model_bytes() const { return heuristic_->model_bytes(); }
+
 private:
     const relax::GroundProblem& problem_;
     relax::Limits limits_;  // none
@@ -121,6 +123,7 @@ void bind_find_plans(nb::module_& module) {
         .def_ro("generated", &relax::SearchStatistics::generated)
         .def_ro("evaluated", &relax::SearchStatistics::evaluated)
         .def_ro("dead_ends", &relax::SearchStatistics::dead_ends)
+        .def_ro("cuts", &relax::SearchStatistics::cuts)
         .def_ro("lower_bound", &relax::SearchStatistics::lower_bound)
         .def_ro("best", &relax::SearchStatistics::best);
 
@@ -141,7 +144,8 @@ void bind_find_plans(nb::module_& module) {
     nb::class_<Evaluator>(module, "Evaluator")
         .def(nb::init<const relax::GroundProblem&, const std::vector<relax::Cost>&, relax::HeuristicKind>(),
              "problem"_a, "costs"_a, "kind"_a, nb::keep_alive<1, 2>())
-        .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a);
+        .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a)
+        .def_prop_ro("model_bytes", &Evaluator::model_bytes);
 
     module.def("find_plans", &find_plans, "problem"_a, "costs"_a, "options"_a, "seconds"_a = nb::none(),
                "memory_bytes"_a = nb::none(), "progress"_a = nb::none());

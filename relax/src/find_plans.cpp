@@ -156,8 +156,10 @@ bool FindPlans::evaluate(const OpenList::Entry& entry) {
         if (!heuristic.is_worth_asking()) {
             continue;
         }
+        const std::uint64_t cuts_before = heuristic->rounds();
         const auto h = heuristic->evaluate(progression_.view(node.state, node.network));
         ++statistics_.evaluated;
+        statistics_.cuts += heuristic->rounds() - cuts_before;
         heuristic.note_answer(!h || *h > node.h, work_of_a_node(heuristic));
         if (!h) {
             ++statistics_.dead_ends;

@@ -129,7 +129,9 @@ std::optional<NodeId> GreedySearch::follow(NodeId node) {
 std::optional<Cost> GreedySearch::evaluate(NodeId id) {
     const SearchNode& node = nodes_[id];
     ++statistics_.evaluated;
-    return heuristic_->evaluate(progression_.view(node.state, node.network));
+    const auto h = heuristic_->evaluate(progression_.view(node.state, node.network));
+    statistics_.cuts = heuristic_->rounds();
+    return h;
 }
 
 // Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.

@@ -54,6 +54,7 @@ public:
 
     std::uint64_t work() const override { return slack_.work(); }
     std::uint64_t rounds() const override { return slack_.rounds(); }
+    std::size_t model_bytes() const override { return slack_.model_bytes(); }
 
 private:
     static std::vector<Cost> slacks(const GroundProblem& problem, const std::vector<Cost>& bounds) {

@@ -61,13 +61,15 @@ bool Portfolio::lags(const Member& member, std::uint64_t work) const {
 }
 
 void Portfolio::add_up() {
-    statistics_.expanded = statistics_.generated = statistics_.evaluated = statistics_.dead_ends = 0;
+    statistics_.expanded = statistics_.generated = statistics_.evaluated = 0;
+    statistics_.dead_ends = statistics_.cuts = 0;
     for (const Member& member : members_) {
         const SearchStatistics& own = member.statistics;
         statistics_.expanded += own.expanded;
         statistics_.generated += own.generated;
         statistics_.evaluated += own.evaluated;
         statistics_.dead_ends += own.dead_ends;
+        statistics_.cuts += own.cuts;
         if (own.lower_bound) {
             statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), *own.lower_bound);
         }

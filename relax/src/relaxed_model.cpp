@@ -191,6 +191,11 @@ void RelaxedModel::add_decomposition(const GroundProblem& problem, MethodId meth
     add_operator(std::move(all), {reached(task)}, free_owner());
 }
 
+std::size_t RelaxedModel::bytes() const {
+    return preconditions.bytes() + adds.bytes() + precondition_of.bytes() + achievers.bytes() +
+           owner_operators.bytes() + owner.size() * sizeof(OwnerId) + owner_cost.size() * sizeof(Cost);
+}
+
 void RelaxedModel::index() {
     precondition_of = invert(preconditions, fact_count());
     achievers = invert(adds, fact_count());

@@ -105,6 +105,7 @@ bool TopPlans::evaluate(Pair& pair) {
         const auto h = heuristic_->evaluate(progression_.view(pair.state, pair.network));
         ++statistics_.evaluated;
         statistics_.dead_ends += h ? 0 : 1;
+        statistics_.cuts = heuristic_->rounds();
         pair.h = std::max(pair.h, h.value_or(kDeadEnd));
         pair.is_evaluated = true;
     }

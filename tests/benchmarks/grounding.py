@@ -19,12 +19,11 @@ import csv
 import json
 import math
 import os
-import platform
 import subprocess
 import sys
 import time
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -35,6 +34,7 @@ from statehtn.experiments.instances import find_instances
 from statehtn.experiments.run import Instance
 from statehtn.hddl import HddlWarning, read_hddl
 from statehtn.limits import LimitReached, Limits
+from tests.benchmarks.tables import geometric_mean, machine, read_rows, section
 
 SLOW = 0.1  # seconds of the baseline above which times are compared
 LARGER = 1.1
@@ -130,20 +130,6 @@ def read_baseline(path: Path) -> dict[tuple[str, str], Baseline]:
     return found
 
 
-def read_rows(path: Path) -> list[Row]:
-    """Return the rows of an earlier output."""
-    rows = []
-    with open(path, newline="", encoding="utf-8") as file:
-        for line in csv.DictReader(file):
-            values: dict[str, object] = {}
-            for field in fields(Row):
-                text, kind = line[field.name], str(field.type)
-                number = float(text) if "float" in kind and text else int(text) if "int" in kind and text else None
-                values[field.name] = text if "str" in kind else number
-            rows.append(Row(**values))  # type: ignore[arg-type]
-    return rows
-
-
 def summary(rows: list[Row], baseline: dict[tuple[str, str], Baseline], markdown: bool) -> Iterator[str]:
     """Yield the lines of the report."""
     grounded = [row for row in rows if row.status == "grounded"]
@@ -175,16 +161,6 @@ def ratio_of_sizes(row: Row, baseline: Baseline) -> float:
     return (row.size or 1) / (baseline.size or 1)
 
 
-def section(title: str, lines: Iterable[str], markdown: bool) -> Iterator[str]:
-    """Yield a heading with the number of lines, and the lines."""
-    found = list(lines)
-    yield ""
-    yield f"{'### ' if markdown else ''}{title}: {len(found)}"
-    if markdown and found:
-        yield ""
-    yield from (f"{'- ' if markdown else '  '}{line.strip()}" for line in found)
-
-
 def domain_table(rows: list[Row], baseline: dict[tuple[str, str], Baseline]) -> Iterator[str]:
     """Yield a Markdown table with a line for each domain."""
     yield "| domain | grounded | slowest s | most MB | times as fast | times as large |"
@@ -207,22 +183,6 @@ def domain_table(rows: list[Row], baseline: dict[tuple[str, str], Baseline]) -> 
         yield f"| {' | '.join(cells)} |"
 
 
-def geometric_mean(values: Iterable[float]) -> float:
-    logarithms = [math.log(value) for value in values]
-    return math.exp(sum(logarithms) / len(logarithms))
-
-
-def machine() -> str:
-    """Describe the machine in one line."""
-    name = platform.processor() or platform.machine()
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            name = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), name)
-    except OSError:
-        pass
-    return f"{name}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
-
-
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=Path, default=os.environ.get("STATEHTN_IPC") or None)
@@ -243,7 +203,7 @@ def arguments() -> argparse.Namespace:
 
 def run_all(options: argparse.Namespace) -> list[Row]:
     """Measure every problem, write and show each as it ends."""
-    earlier = read_rows(options.output) if options.resume and options.output and options.output.exists() else []
+    earlier = read_rows(Row, options.output) if options.resume and options.output and options.output.exists() else []
     known = {(row.domain, row.problem) for row in earlier}
     instances = [one for one in find_instances(options.root) if options.only in f"{one.domain} {one.problem}"]
     todo = [one for one in instances if (one.domain, one.problem) not in known]

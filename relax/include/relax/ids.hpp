@@ -26,6 +26,7 @@ template <typename Value>
 class Rows {
 public:
     std::size_t size() const { return ends_.size(); }
+    std::size_t bytes() const { return ends_.size() * sizeof(std::uint32_t) + values_.size() * sizeof(Value); }
 
     std::span<const Value> operator[](std::size_t row) const {
         const std::size_t begin = row == 0 ? 0 : ends_[row - 1];

@@ -1,6 +1,7 @@
 #ifndef RELAX_RC_HEURISTIC_HPP
 #define RELAX_RC_HEURISTIC_HPP
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -37,6 +38,8 @@ public:
         }
         return 0;
     }
+
+    std::size_t model_bytes() const override { return model_.bytes(); }
 
     bool is_preferred(MethodId method) const override {
         if constexpr (requires { classical_.uses(OperatorId{}); }) {

@@ -42,6 +42,8 @@ public:
 
     std::size_t fact_count() const { return fact_count_; }
     std::size_t operator_count() const { return owner.size(); }
+    // The size of what an evaluation may read.
+    std::size_t bytes() const;
     RelaxedFact holds(FactId fact) const { return 1 + fact; }
     RelaxedFact reached(TaskId task) const { return reached_begin_ + task; }
     // Of the decomposition model alone.

@@ -31,6 +31,7 @@ struct SearchStatistics {
     std::uint64_t generated = 0;
     std::uint64_t evaluated = 0;
     std::uint64_t dead_ends = 0;
+    std::uint64_t cuts = 0;           // landmark cuts of the heuristics
     std::optional<Cost> lower_bound;  // proven so far
     std::optional<Cost> best;         // cost of the best plan so far
 };

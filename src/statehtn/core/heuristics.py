@@ -102,6 +102,11 @@ class HeuristicEvaluator:
         self._prices = price(grounding.laws, utility, grounding.action_text)
         self._evaluator = _relax.Evaluator(grounding.handle, self._prices.units, HEURISTICS[heuristic].kind)
 
+    @property
+    def model_bytes(self) -> int:
+        """The size of the relaxed model that an evaluation reads at most; 0 for a heuristic without one."""
+        return self._evaluator.model_bytes
+
     def __call__(self, state: Iterable[int], tasks: Iterable[int]) -> float | None:
         """Estimate the cost still to come, rounded down; None for a dead end.
 

@@ -124,6 +124,8 @@ class SearchOutcome:
     generated: int
     evaluated: int
     dead_ends: int
+    cuts: int
+    """Landmark cuts of all evaluations together."""
 
 
 Item = TypeVar("Item")
@@ -298,6 +300,7 @@ class StagedRun:
             sum(one.generated for one in self.done),
             sum(one.evaluated for one in self.done),
             sum(one.dead_ends for one in self.done),
+            sum(one.cuts for one in self.done),
         )
 
     def cost(self, units: int | None) -> float | None:
