@@ -33,7 +33,7 @@ _NOT_RUN = re.compile(r"^ *<!-- not run: .+ -->$")
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A fenced block: its language, its text, the line of the page that it begins in, whether it is left out, its title."""
+    """A fenced block: its language, text and title, the line of the page that it begins in, whether it is left out."""
 
     language: str
     text: str
