@@ -16,6 +16,7 @@ from tests.results import planned, write
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 AV = ("domains/av/domain.hddl", "domains/av/p1.hddl")
+DASK = ("compare", "--suite", "paper", "--dask", "tcp://127.0.0.1:1")
 NEEDED = {re.split(r"[^\w-]", dependency)[0] for dependency in PROJECT["dependencies"]}
 OPTIONAL = ("matplotlib", "scipy", "pydot", "distributed", "jinja2", "unified_planning", "pandas", "IPython")
 
@@ -59,7 +60,7 @@ def test_from_python(library: str, extra: str, code: str) -> None:
     [
         ("scipy", "scipy", ("plan", *AV, "--costs", "examples/av-costs.toml")),
         ("pydot", "graph", ("graph", *AV, "--kind", "cv-tdg", "--output", "{tmp}/graph.svg")),
-        ("distributed", "dask", ("compare", "--suite", "paper", "--dask", "tcp://127.0.0.1:1")),
+        ("distributed", "dask", (*DASK, "--output", "{tmp}/results.csv")),
         ("jinja2", "report", ("report", "{results}", "--output", "{tmp}/report.html")),
         ("matplotlib", "report", ("report", "{results}", "--output", "{tmp}/report.html")),
     ],
