@@ -13,7 +13,7 @@ HYPOTHESIS_PROFILE := $(if $(CI),ci,dev)
 AV := domains/av/domain.hddl domains/av/p1.hddl
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint format core-test benchmark clean check-python check-compiler
+.PHONY: help demo test lint format docs core-test benchmark clean check-python check-compiler
 .DELETE_ON_ERROR:
 
 help:  ## list the targets
@@ -34,6 +34,9 @@ lint: $(VENV)/.installed $(VENV)/.lint-tools  ## check style, types, layers and 
 format: $(VENV)/.lint-tools  ## format the Python and C++ sources
 	$(NOX) format
 
+docs: $(VENV)/.docs-tools  ## build the documentation as a site that needs no network: site/index.html
+	$(NOX) docs
+
 core-test: $(VENV)/.lint-tools  ## build the core without Python, warnings as errors, and run its tests under sanitizers
 	$(NOX) core
 
@@ -41,7 +44,7 @@ benchmark: $(VENV)/.installed  ## time the problems of the paper
 	$(RUN) -m tests.benchmarks.paper
 
 clean:  ## remove everything that was built, the virtual environment included
-	rm -rf $(VENV) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache .nox .benchmarks
+	rm -rf $(VENV) build dist site .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache .nox .benchmarks
 	find src tests -name __pycache__ -prune -exec rm -rf {} +
 	rm -f src/statehtn/_relax*.so
 
@@ -61,6 +64,10 @@ $(VENV)/.installed: pyproject.toml $(CORE_SOURCES) $(VENV)/.build-tools | check-
 
 $(VENV)/.lint-tools: pyproject.toml $(VENV)/.build-tools
 	$(PIP) install --group lint
+	@touch $@
+
+$(VENV)/.docs-tools: pyproject.toml $(VENV)/.build-tools
+	$(PIP) install --group docs --group lint
 	@touch $@
 
 # Each check says in one line what is missing and how to get it.

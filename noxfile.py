@@ -13,7 +13,7 @@ nox.options.sessions = ["lint", "tests"]
 nox.options.reuse_existing_virtualenvs = True
 
 PROJECT = nox.project.load_toml("pyproject.toml")
-PYTHON_FILES = ["src", "tests", "examples", "noxfile.py"]
+PYTHON_FILES = ["src", "tests", "examples", "docs/site", "noxfile.py"]
 
 
 def cpp_files() -> list[str]:
@@ -44,6 +44,13 @@ def format_sources(session: nox.Session) -> None:
     session.run("ruff", "check", "--fix", *PYTHON_FILES)
     session.run("ruff", "format", *PYTHON_FILES)
     session.run("clang-format", "-i", *cpp_files())
+
+
+@nox.session
+def docs(session: nox.Session) -> None:
+    """Build the documentation's site in site/, warnings as errors."""
+    install(session, "docs")
+    session.run("mkdocs", "build", "--strict", *session.posargs, env={"NO_MKDOCS_2_WARNING": "1"})
 
 
 @nox.session

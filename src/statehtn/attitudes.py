@@ -196,7 +196,9 @@ def compare_attitudes(
         problem: a problem, such as `read_hddl` returns.
         alpha: how much averse and seeking agents care about risk, per unit of cost; several for as many agents.
         attitudes: some of averse, neutral and seeking.
-        solver: as for `plan`, for each agent; so are `heuristic`, `search`, the limits and `progress`.
+        solver: as for `plan`, for each agent; so are `heuristic`, `search` and `progress`.
+        time_limit: seconds for each agent.
+        memory_limit: resident memory of the whole process in MB (10^6 bytes).
 
     An agent without a plan has a result that says why. After an interruption no further agent is asked.
 

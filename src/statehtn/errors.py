@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A position in an input file; lines and columns count from 1."""
+    """A position in an input `file`; its `line` and `column` count from 1."""
 
     file: str
     line: int

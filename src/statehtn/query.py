@@ -19,6 +19,7 @@ SOLVERS: Mapping[str, str] = MappingProxyType(
         "plan": "A* search over task networks alone (paper Algorithms 1 to 3)",
     }
 )
+"""The solvers by name, with a line about each."""
 HEURISTIC_CHOICES = (PORTFOLIO, *HEURISTICS)
 """What may be asked for as a heuristic."""
 PORTFOLIO_SEARCHES = ("astar", "anytime")

@@ -54,7 +54,11 @@ class CostEntry:
 
 @dataclass(frozen=True, slots=True)
 class CostTable:
-    """Laws of costs by action and arguments; `statehtn.read_costs` reads one from a file."""
+    """Laws of costs by action and arguments; `statehtn.read_costs` reads one from a file.
+
+    Args:
+        entries: the laws, in the file's order: of several for one instance the first one counts.
+    """
 
     entries: tuple[CostEntry, ...]
 

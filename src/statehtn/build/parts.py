@@ -72,7 +72,12 @@ A frozen distribution of `scipy.stats` is taken as its law.
 def when(condition: Combinable, *parts: EffectPart | CostPart) -> When:
     """Return effects or costs that are due in the states in which a condition holds, before the action.
 
-    Costs of several conditions that hold at once add up.
+    Args:
+        condition: a formula.
+        parts: effects, or costs. Costs of several conditions that hold at once add up.
+
+    Raises:
+        UsageError: the condition is no formula, or nothing is due under it.
     """
     if not parts:
         raise UsageError("'when' has a condition and what is due under it, found the condition alone")
@@ -88,7 +93,13 @@ def forall(
 ) -> Forall | Quantified:
     """Return what holds, or is due, for all objects of the variables' types.
 
-    Of one formula it is a formula (and may be an effect); of anything else it stands in `effects` or `cost`.
+    Args:
+        variables: of one type or several, such as `place.variables("a", "b")`.
+        part: one formula makes a formula (which may be an effect); anything else stands in `effects` or `cost`.
+        parts: more of these.
+
+    Raises:
+        UsageError: a variable is none, or the body is no formula.
     """
     if not parts and isinstance(part, Combinable):
         return Forall(checked_variables(variables), checked_formula(part, "the body of 'forall'"))
@@ -97,6 +108,10 @@ def forall(
 
 def chance(*branches: tuple[Computable | Amount, Computable | Amount]) -> Chance:
     """Return a cost that is uncertain: pairs (probability, cost) of numbers or expressions.
+
+    Args:
+        branches: the pairs, such as `(0.8, 2), (0.2, 3 * hours(a, b))`; costs are positive and minimised, in the
+            domain's own unit.
 
     Raises:
         UsageError: a number is negative, or constant probabilities do not sum to 1.

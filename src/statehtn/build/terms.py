@@ -34,6 +34,13 @@ def equal(left: Term, right: Term) -> Equals:
     """Return the formula that two terms name the same object; `~equal(a, b)` that they do not.
 
     (`a == b` compares the Python objects.)
+
+    Args:
+        left: a variable, an object or the name of an object.
+        right: likewise.
+
+    Raises:
+        UsageError: one is none of these.
     """
     for term in (left, right):
         if not isinstance(term, Parameter | Object | str):

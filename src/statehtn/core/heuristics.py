@@ -85,6 +85,7 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
         ),
     }
 )
+"""The heuristics by name: whether each is admissible, consistent and safe, and a line about it with its source."""
 
 PORTFOLIO = "auto"
 """The name of no heuristic, but of three A* searches in turn, which share what they prove: with `tdg`, with `lmcut`,

@@ -67,6 +67,7 @@ SEARCHES: Mapping[str, tuple[Stage, ...]] = MappingProxyType(
         ),
     }
 )
+"""The searches by name, each as the stages that it goes through; `plan` says what they promise."""
 
 TOO_DEAR = "the costs of a plan add up to more than the search can hold: millions of times the largest cost"
 
@@ -103,7 +104,16 @@ class SearchSwitches:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a search has come; risk costs in the domain's own unit, None where not known."""
+    """How far a search has come.
+
+    Args:
+        seconds: since the run began, reading and grounding included.
+        expanded: nodes whose successors were generated.
+        generated: nodes that were made.
+        evaluated: nodes that the heuristic was asked about.
+        lower_bound: no plan has a lower risk cost, in the domain's own unit; None where none is known.
+        best: the risk cost of the best plan so far; None where there is none.
+    """
 
     seconds: float
     expanded: int

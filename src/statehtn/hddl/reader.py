@@ -33,6 +33,8 @@ def read_hddl(
     docs/hddl-costs.md how costs are written.
 
     Args:
+        domain_path: the domain's file.
+        problem_path: the problem's file.
         strict: raise an error for whatever would be an `HddlWarning` otherwise.
         limits: time and memory for reading.
 
@@ -65,6 +67,10 @@ def read_hddl_text(
     """Read a problem and its domain from strings; as `read_hddl`.
 
     Args:
+        domain_text: the domain.
+        problem_text: the problem.
+        strict: raise an error for whatever would be an `HddlWarning` otherwise.
+        limits: time and memory for reading.
         domain_file: the name of the domain in messages.
         problem_file: the name of the problem in messages.
     """

@@ -108,7 +108,10 @@ def relax(problem: Problem, *, attitude: Attitude | str = Attitude.NEUTRAL, alph
 def relax_to_pddl(
     problem: Problem, *, attitude: Attitude | str = Attitude.NEUTRAL, alpha: float | None = None
 ) -> tuple[str, str]:
-    """Return the relaxed model, as `relax` does, as PDDL text: domain and problem."""
+    """Return the relaxed model, as `relax` does, as PDDL text: domain and problem.
+
+    The arguments `problem`, `attitude` and `alpha`, and what it raises: see `relax`.
+    """
     model = relax(problem, attitude=attitude, alpha=alpha)
     from statehtn.interop.relaxation import pddl
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A ground primitive task in a plan."""
+    """A ground primitive task in a plan: the name of its `action`, and its `arguments`, which are names of objects."""
 
     action: str
     arguments: tuple[str, ...] = ()
@@ -55,6 +55,7 @@ class Decomposition:
 class Plan:
     """A sequence of actions and the decomposition of the initial network that it comes from.
 
+    `steps` are the actions, in the order of their execution: those of the domain only.
     `roots` has one entry for each task of the initial network, in its order, as in `Decomposition.children`.
     `root_bindings` binds the initial network's parameters (empty where there are none, None where unknown).
     `costs` has the law of each step's cost in the state it is executed in; None where they are not known, as in a plan

@@ -107,8 +107,11 @@ class Problem:
     """An HTN problem: initial state, initial task network and goal over a domain.
 
     Args:
+        name: the problem's name.
+        domain: types, predicates, tasks, actions with their costs, and methods.
         objects: the problem's own objects with their types; constants of the domain are not repeated.
         parameters: variables of the initial network, to be bound to any objects.
+        network: the tasks to accomplish, and their order.
         initial_state: the facts that are true; all others are false.
         function_values: values for cost expressions.
         goal: a formula over facts that must hold in the end, besides the network being accomplished.

@@ -46,7 +46,7 @@ class Neutral:
         return min(max(law.mean, law.least), law.most)
 
     def utility(self, cost: float) -> float:
-        """Return `-cost`."""
+        """Return minus the cost: the utility is linear."""
         return -cost
 
     def log10_expected_utility(self, risk_cost: float) -> None:
