@@ -11,24 +11,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from statehtn.core.heuristics import HEURISTICS
-from statehtn.core.search import SEARCHES, Progress
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
-from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
 from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
-from statehtn.planner import plan
-from statehtn.query import SOLVERS
-from statehtn.result import PricedStep, Result
-from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
-from statehtn.validate import Validation, validate
+from statehtn.validate import Validation, validate  # a package of this name: its function has to come after it
 
 if TYPE_CHECKING:
     from statehtn.attitudes import AttitudeComparison, compare_attitudes
     from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
+    from statehtn.core.heuristics import HEURISTICS
+    from statehtn.core.search import SEARCHES, Progress
     from statehtn.core.top_plans import TopProgress
+    from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
     from statehtn.hddl.plan_format import read_plan, write_plan
     from statehtn.interop import (
         cost_distributions,
@@ -38,6 +34,10 @@ if TYPE_CHECKING:
         relax_to_pddl,
         to_unified_planning,
     )
+    from statehtn.planner import plan
+    from statehtn.query import SOLVERS
+    from statehtn.result import PricedStep, Result
+    from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
     from statehtn.tabulate import tabulate_costs
     from statehtn.top_planner import top_plans
     from statehtn.top_result import RankedPlan, TopPlans
@@ -105,7 +105,10 @@ _MODULES_FOR_LATER = {
     "build": ("ProblemBuilder", "chance", "equal", "exists", "forall", "when", "with_cost"),
     "build.cost_file": ("read_costs",),
     "build.cost_table": ("CostTable",),
+    "core.heuristics": ("HEURISTICS",),
+    "core.search": ("SEARCHES", "Progress"),
     "core.top_plans": ("TopProgress",),
+    "hddl": ("HddlWarning", "read_hddl", "read_hddl_text", "write_hddl"),
     "hddl.plan_format": ("read_plan", "write_plan"),
     "interop": (
         "cost_distributions",
@@ -115,16 +118,20 @@ _MODULES_FOR_LATER = {
         "relax_to_pddl",
         "to_unified_planning",
     ),
+    "planner": ("plan",),
+    "query": ("SOLVERS",),
+    "result": ("PricedStep", "Result"),
+    "risk": ("Attitude", "Exponential", "Neutral", "Utility", "utility_for"),
     "tabulate": ("tabulate_costs",),
     "top_planner": ("top_plans",),
     "top_result": ("RankedPlan", "TopPlans"),
 }
-"""Where the names are that not every program needs; their modules are imported when one of them is asked for."""
+"""Where names are whose modules are imported when one of them is asked for, so that `import statehtn` is quick."""
 _LATER = {name: f"statehtn.{module}" for module, names in _MODULES_FOR_LATER.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    """Look up what not every program needs when it is asked for."""
+    """Import what is asked for."""
     if name in _LATER:
         from importlib import import_module
 
