@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t kFirstTurn = 1'000'000;  // of work
 constexpr std::uint64_t kLaggardsShare = 8;      // one part in so many
+constexpr std::uint64_t kPreparation = 100;      // of a relaxed model, for each action and method
 
 }  // namespace
 
@@ -28,8 +29,12 @@ SearchResult Portfolio::run() {
         add_up();
         return poll && poll();
     };
+    const std::uint64_t preparation = kPreparation * (problem_.action_count() + problem_.method_count());
     for (std::uint64_t work = kFirstTurn;; work *= 2) {
         for (Member& member : members_) {
+            if (member.heuristic != HeuristicKind::Tdg && work < preparation) {
+                continue;
+            }
             if (take_turn(member, lags(member, work) ? work / kLaggardsShare : work)) {
                 return gather(member);
             }

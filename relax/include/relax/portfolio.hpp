@@ -16,11 +16,12 @@
 
 namespace relax {
 
-// A* with cheap and with good heuristics: two searches that take turns and share what they have proven. Which one pays
-// is not to be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in
+// A* with cheap and with good heuristics: three searches that take turns and share what they have proven. Which one
+// pays is not to be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in
 // milliseconds what landmark cuts do not in minutes; elsewhere it is the other way round.
 //
-// A turn is an amount of work, not of time, so that two runs are the same. Who has proven less than another one has
+// A turn is an amount of work, not of time, so that two runs are the same. Searches with a relaxed model begin when the
+// one without has done as much as it takes to make the model. Who has proven less than another one has
 // with as much work gets a small share only. The first one to end, ends all.
 class Portfolio {
 public:
