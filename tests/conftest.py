@@ -10,7 +10,7 @@ from statehtn import Problem, write_hddl
 SUPPRESSED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 
 settings.register_profile("dev", max_examples=30, deadline=None, suppress_health_check=SUPPRESSED)
-settings.register_profile("ci", max_examples=150, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
+settings.register_profile("ci", max_examples=100, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
 settings.load_profile("dev")
 
