@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from pathlib import Path
 
@@ -204,7 +205,7 @@ def test_external_costs_cannot_be_written() -> None:
 
 def test_the_examples_of_the_documentation() -> None:
     text = (Path(__file__).parents[2] / "docs" / "hddl-costs.md").read_text(encoding="utf-8")
-    examples = [part.split("```")[0] for part in text.split("```lisp\n")[1:]]
+    examples = re.findall(r"^```lisp[^\n]*\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)
     assert len(examples) == 4
     for domain, problem in zip(examples[::2], examples[1::2], strict=True):
         assert read_hddl_text(domain, problem, strict=True).network.subtasks
