@@ -128,8 +128,14 @@ std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
         if (is_exact()) {
             statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
         }
-        if (evaluate(entry)) {
-            expand(entry.node);
+        const auto node = follow(entry.node);
+        if (!node) {
+            continue;
+        }
+        if (priority(*node) > entry.priority) {
+            push(*node);
+        } else if (evaluate(*node, entry.priority)) {
+            expand(*node);
         }
     }
     is_done_ = true;
@@ -149,8 +155,8 @@ bool FindPlans::is_stale(const OpenList::Entry& entry) const {
 
 // Ask the heuristics that have not been asked about this pair of state and network, until one of them raises f. Returns
 // whether none does; else the node is a dead end or goes back to the open list.
-bool FindPlans::evaluate(const OpenList::Entry& entry) {
-    SearchNode& node = nodes_[entry.node];
+bool FindPlans::evaluate(NodeId id, Cost f) {
+    SearchNode& node = nodes_[id];
     while (node.heuristics_asked < heuristics_.size()) {
         AdaptiveHeuristic& heuristic = heuristics_[node.heuristics_asked++];
         if (!heuristic.is_worth_asking()) {
@@ -169,13 +175,13 @@ bool FindPlans::evaluate(const OpenList::Entry& entry) {
         if (is_admissible(options_.heuristic)) {
             node.h = std::max(node.h, *h);
         } else {
-            guides_[entry.node] = *h;
+            guides_[id] = *h;
         }
         if (is_too_dear(node)) {
             return false;
         }
-        if (priority(entry.node) > entry.priority) {
-            push(entry.node);
+        if (priority(id) > f) {
+            push(id);
             return false;
         }
     }
@@ -194,28 +200,47 @@ void FindPlans::expand(NodeId id) {
     nodes_[id].is_expanded = true;
     ++statistics_.expanded;
     progression_.expand(nodes_[id].state, nodes_[id].network, successors_);
+    if (options_.learn_branching) {
+        note_branching(id);
+    }
     for (const Successor& successor : successors_) {
-        follow(id, successor);
+        if (const auto next = generate(id, successor)) {
+            push(*next);
+        }
     }
 }
 
-// Generate the successor, and go on from there as long as there is but one way: what is between is never open.
-void FindPlans::follow(NodeId parent, const Successor& successor) {
-    std::optional<NodeId> id = generate(parent, successor);
-    for (std::uint32_t step = 0; id && options_.follow_forced && step < kMostForcedSteps; ++step) {
-        const SearchNode& node = nodes_[*id];
-        if (!progression_.expand_if_forced(node.state, node.network, forced_)) {
-            break;
-        }
-        nodes_[*id].is_expanded = true;
-        if (forced_.empty()) {
-            return;
-        }
-        id = generate(*id, forced_.front());
+void FindPlans::note_branching(NodeId id) {
+    if (successors_.size() > 1 && successors_.front().step.method) {
+        progression_.branching().note_decomposed(problem_.method_task[*successors_.front().step.method]);
     }
-    if (id) {
-        push(*id);
+    while (nodes_[id].is_forced) {
+        id = nodes_[id].parent;
     }
+    if (const auto method = nodes_[id].step().method) {
+        progression_.branching().note_survivor(*method);
+    }
+}
+
+// Go on from a node that no heuristic has been asked about as long as there is but one way. Returns where that leads,
+// unless to a dead end, a goal, or what is known or too dear. The nodes between are never asked about.
+std::optional<NodeId> FindPlans::follow(NodeId id) {
+    if (!options_.follow_forced || nodes_[id].heuristics_asked > 0) {
+        return id;
+    }
+    for (std::uint32_t step = 0; step < kMostForcedSteps; ++step) {
+        if (!progression_.expand_if_forced(nodes_[id].state, nodes_[id].network, successors_)) {
+            return id;
+        }
+        nodes_[id].is_expanded = true;
+        const auto next = successors_.empty() ? std::nullopt : generate(id, successors_.front());
+        if (!next) {
+            return std::nullopt;
+        }
+        id = *next;
+        nodes_[id].is_forced = true;
+    }
+    return id;
 }
 
 // Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.

@@ -31,6 +31,7 @@ Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, 
       transition_(problem),
       states_(transition_.word_count()),
       networks_(make_task_networks(problem, std::move(task_bounds))),
+      branching_(problem),
       next_(transition_.word_count()) {
     if (options.use_stubborn_sets) {
         stubborn_set_.emplace(problem);
@@ -136,16 +137,16 @@ NodeView Progression::view(StateId state, NetworkId network) {
     return {states_[state], ordered_tasks_.tasks, networks_->bound(network), true, {}};
 }
 
-// The unconstrained compound task with the fewest methods, the first one among equals.
+// The first one of the best unconstrained compound tasks.
 std::optional<Occurrence> Progression::compound_to_decompose() const {
     std::optional<Occurrence> best;
-    std::size_t fewest = 0;
+    double fewest = 0;
     for (const Occurrence& occurrence : unconstrained_) {
         if (!problem_.is_primitive(occurrence.task)) {
-            const std::size_t count = problem_.methods_of(occurrence.task).size();
-            if (!best || count < fewest) {
+            const double survivors = branching_.expect_survivors(occurrence.task);
+            if (!best || survivors < fewest) {
                 best = occurrence;
-                fewest = count;
+                fewest = survivors;
             }
         }
     }

@@ -56,10 +56,11 @@ private:
     // Whether priorities are lower bounds.
     bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic); }
     bool is_stale(const OpenList::Entry& entry) const;
-    bool evaluate(const OpenList::Entry& entry);
+    bool evaluate(NodeId id, Cost f);
     std::uint64_t work_of_a_node(const AdaptiveHeuristic& heuristic) const;
     void expand(NodeId id);
-    void follow(NodeId parent, const Successor& successor);
+    void note_branching(NodeId id);
+    std::optional<NodeId> follow(NodeId id);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
     Cost cheap_bound(const SearchNode& parent, const Successor& successor);
     Cost priority(NodeId id) const;
@@ -82,7 +83,6 @@ private:
     bool is_done_ = false;
     bool is_torn_ = false;  // memory ran out in the middle of an expansion
     std::vector<Successor> successors_;
-    std::vector<Successor> forced_;
 };
 
 }  // namespace relax

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "relax/branching.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
@@ -67,6 +68,8 @@ public:
 
     const StateRegistry& states() const { return states_; }
     TaskNetworks& networks() { return *networks_; }
+    // Tell it what becomes of the nodes, and the tasks are chosen the better.
+    Branching& branching() { return branching_; }
 
 private:
     std::optional<Occurrence> compound_to_decompose() const;
@@ -82,6 +85,7 @@ private:
     StateTransition transition_;
     StateRegistry states_;
     std::unique_ptr<TaskNetworks> networks_;
+    Branching branching_;
     // By MethodId: an action that comes before all other subtasks; empty if dead methods are not to be skipped.
     std::vector<std::optional<ActionId>> first_action_;
     std::optional<StubbornSet> stubborn_set_;

@@ -25,6 +25,7 @@ struct SearchNode {
     MethodId method;                // kExecuted where the step executed an action
     std::uint8_t heuristics_asked;  // how many; `h` includes what they told
     bool is_expanded;               // at its present g
+    bool is_forced;                 // its parent has no other successor
 
     static constexpr MethodId kExecuted = std::numeric_limits<MethodId>::max();
 
@@ -34,6 +35,7 @@ struct SearchNode {
         occurrence = step.occurrence;
         method = step.method.value_or(kExecuted);
         is_expanded = false;
+        is_forced = false;
     }
     SearchStep step() const { return {occurrence, method == kExecuted ? std::nullopt : std::optional(method)}; }
 };
@@ -53,7 +55,7 @@ public:
     // Add a node for a pair that is not yet there.
     NodeId add(StateId state, NetworkId network) {
         const auto id = static_cast<NodeId>(nodes_.size());
-        nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false});
+        nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false, false});
         table_.add(hash(state, network), id,
                    [this](NodeId other) { return hash(nodes_[other].state, nodes_[other].network); });
         return id;
