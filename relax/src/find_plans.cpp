@@ -20,6 +20,12 @@ constexpr std::uint32_t kMostForcedSteps = 1000;  // recursion that is forced ma
 
 constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
 
+ProgressionOptions progression_options(const SearchOptions& options) {
+    ProgressionOptions result = options;
+    result.use_macros = options.merge_sequences;
+    return result;
+}
+
 }  // namespace
 
 FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
@@ -29,7 +35,8 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), options) {
+      progression_(problem, costs_, tdg_bound(problem, costs_), progression_options(options)),
+      nodes_(progression_.networks()) {
     const bool asks_always = !options.ask_adaptively || !is_admissible(options.heuristic);
     heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
     for (const HeuristicKind kind : options.more_heuristics) {
@@ -250,17 +257,24 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
     if (g >= kDeadEnd) {
         throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
     }
-    const auto known = nodes_.find(successor.state, successor.network);
-    if (known && nodes_[*known].g <= g) {
+    const TaskNetworks& networks = progression_.networks();
+    const Cost bound = networks.bound(successor.network);
+    if (bound >= kDeadEnd || networks.is_impossible(successor.network)) {
         return std::nullopt;
     }
-    const NodeId id = known ? *known : nodes_.add(successor.state, successor.network);
-    if (!known && !is_admissible(options_.heuristic)) {
-        guides_.push_back(guides_[parent]);
+    const auto known = nodes_.find(successor.state, successor.network);
+    if (known && is_as_good(nodes_[*known], g, successor.network)) {
+        return std::nullopt;
+    }
+    const NodeId id = !known                                          ? nodes_.add(successor.state, successor.network)
+                      : nodes_[*known].network == successor.network ? *known
+                                                                      : nodes_.replace(*known, successor.network);
+    if (guides_.size() < nodes_.size() && !is_admissible(options_.heuristic)) {
+        guides_.push_back(guides_[known.value_or(parent)]);
     }
     SearchNode& node = nodes_[id];
     node.reach(parent, g, successor.step);
-    if (progression_.networks().is_empty(node.network)) {
+    if (networks.is_empty(node.network)) {
         if (!is_too_dear(node)) {
             goal_ = id;
             statistics_.best = g;
@@ -269,6 +283,16 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
     }
     node.h = std::max(node.h, cheap_bound(nodes_[parent], successor));
     return is_too_dear(node) ? std::nullopt : std::optional(id);
+}
+
+// Whether a known node is as good as reaching another network of its form at cost g: once the actions are executed that
+// come at different places in the two. Among equals the one with fewer tasks is better, or executing these actions would
+// lead back to where they started.
+bool FindPlans::is_as_good(const SearchNode& known, Cost g, NetworkId network) {
+    const TaskNetworks& networks = progression_.networks();
+    const Cost cost_known = known.g + networks.bound(known.network);
+    const Cost cost = g + networks.bound(network);
+    return cost_known < cost || (cost_known == cost && networks.size(known.network) <= networks.size(network));
 }
 
 Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor) {

@@ -28,6 +28,7 @@ GreedySearch::GreedySearch(const GroundProblem& problem, std::vector<Cost> costs
       statistics_(statistics),
       progression_(problem, costs_, tdg_bound(problem, costs_), options),
       heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)),
+      nodes_(progression_.networks()),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
 
 SearchResult GreedySearch::run() {

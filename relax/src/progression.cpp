@@ -10,16 +10,21 @@ namespace {
 
 std::optional<ActionId> first_action(const GroundProblem& problem, MethodId method) {
     const auto subtasks = problem.method_subtasks[method];
-    std::vector<std::uint32_t> successors(subtasks.size(), 0);
-    for (const auto& [earlier, later] : problem.method_ordering[method]) {
-        ++successors[earlier];
-    }
-    for (std::size_t at = 0; at < subtasks.size(); ++at) {
-        if (successors[at] + 1 == subtasks.size() && problem.is_primitive(subtasks[at])) {
-            return subtasks[at];
+    const auto ordering = problem.method_ordering[method];
+    std::size_t first = 0;  // if there is only one subtask
+    if (subtasks.size() > 1) {
+        // The pairs are sorted: look for a run that has all the others.
+        std::size_t run = 0;
+        std::size_t at = 0;
+        for (; at < ordering.size() && run + 1 < subtasks.size(); ++at) {
+            run = at > 0 && ordering[at].first == ordering[at - 1].first ? run + 1 : 1;
         }
+        if (run + 1 < subtasks.size()) {
+            return std::nullopt;
+        }
+        first = ordering[at - 1].first;
     }
-    return std::nullopt;
+    return !subtasks.empty() && problem.is_primitive(subtasks[first]) ? std::optional(subtasks[first]) : std::nullopt;
 }
 
 }  // namespace
@@ -30,7 +35,7 @@ Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, 
       costs_(std::move(costs)),
       transition_(problem),
       states_(transition_.word_count()),
-      networks_(make_task_networks(problem, std::move(task_bounds))),
+      networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros)),
       branching_(problem),
       next_(transition_.word_count()) {
     if (options.use_stubborn_sets) {

@@ -7,9 +7,10 @@
 
 namespace relax {
 
-std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds) {
+std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+                                                 bool use_macros) {
     if (TotallyOrderedNetworks::fits(problem)) {
-        return std::make_unique<TotallyOrderedNetworks>(problem, std::move(task_bounds));
+        return std::make_unique<TotallyOrderedNetworks>(problem, std::move(task_bounds), use_macros);
     }
     return std::make_unique<PartiallyOrderedNetworks>(problem, std::move(task_bounds));
 }

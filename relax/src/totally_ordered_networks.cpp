@@ -13,21 +13,28 @@ std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_
 
 }  // namespace
 
-TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds)
+TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+                                               bool use_macros)
     : problem_(problem), task_bounds_(std::move(task_bounds)) {
+    std::vector<std::uint32_t> before;  // the order is transitively closed: this is the subtask's place
+    std::vector<std::uint32_t> sequence;
     for (MethodId method = 0; method < problem.method_count(); ++method) {
         const std::size_t count = problem.method_subtasks[method].size();
-        std::vector<std::uint32_t> before(count, 0);  // the order is transitively closed: this is the subtask's place
+        before.assign(count, 0);
         for (const auto& [earlier, later] : problem.method_ordering[method]) {
             ++before[later];
         }
-        std::vector<std::uint32_t> sequence(count);
+        sequence.resize(count);
         for (std::uint32_t subtask = 0; subtask < count; ++subtask) {
             sequence[before[subtask]] = subtask;
         }
         sequence_.add_row(sequence);
     }
-    cells_.push_back({0, 0, kEmpty, 0});
+    if (use_macros) {
+        macros_.emplace(problem);
+    }
+    cells_.push_back({0, 0, kEmpty, 0, 0});
+    forms_.push_back({0, 0});
 }
 
 bool TotallyOrderedNetworks::fits(const GroundProblem& problem) {
@@ -114,8 +121,39 @@ NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
         return *known;
     }
     const auto id = static_cast<NetworkId>(cells_.size());
-    cells_.push_back({add_bounds(cells_[rest].bound, task_bounds_[first]), first, rest, cells_[rest].size + 1});
+    cells_.push_back({add_bounds(cells_[rest].bound, task_bounds_[first]), first, rest, cells_[rest].size + 1,
+                      macros_ ? form_of(first, cells_[rest].form) : 0});
     table_.add(hash, id, [this](NetworkId other) { return hash_cell(cells_[other].first, cells_[other].rest); });
+    return id;
+}
+
+FormId TotallyOrderedNetworks::form_of(TaskId first, FormId rest) {
+    if (rest == kImpossible) {
+        return kImpossible;
+    }
+    if (!problem_.is_primitive(first) || !macros_->fits(first)) {
+        return intern_form(first, rest);
+    }
+    const auto tasks = static_cast<std::uint32_t>(problem_.task_count());
+    const bool continues = rest != kEmpty && forms_[rest].first >= tasks;
+    const auto macro = macros_->prepend(first, continues ? forms_[rest].first - tasks : MacroActions::kNothing);
+    if (!macro) {
+        return kImpossible;
+    }
+    const FormId after = continues ? forms_[rest].rest : rest;
+    return *macro == MacroActions::kNothing ? after : intern_form(tasks + *macro, after);
+}
+
+FormId TotallyOrderedNetworks::intern_form(std::uint32_t first, FormId rest) {
+    const std::uint64_t hash = hash_cell(first, rest);
+    const auto known =
+        form_table_.find(hash, [&](FormId id) { return forms_[id].first == first && forms_[id].rest == rest; });
+    if (known) {
+        return *known;
+    }
+    const auto id = static_cast<FormId>(forms_.size());
+    forms_.push_back({first, rest});
+    form_table_.add(hash, id, [this](FormId other) { return hash_cell(forms_[other].first, forms_[other].rest); });
     return id;
 }
 

@@ -62,6 +62,7 @@ private:
     void note_branching(NodeId id);
     std::optional<NodeId> follow(NodeId id);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
+    bool is_as_good(const SearchNode& known, Cost g, NetworkId network);
     Cost cheap_bound(const SearchNode& parent, const Successor& successor);
     Cost priority(NodeId id) const;
     bool is_too_dear(const SearchNode& node) const;

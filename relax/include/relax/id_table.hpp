@@ -69,6 +69,15 @@ public:
         ++count_;
     }
 
+    // Put an element in the place of another one with this hash.
+    void replace(std::uint64_t hash, std::uint32_t old, std::uint32_t id) {
+        std::size_t at = hash & mask();
+        while (slots_[at].id != old) {
+            at = (at + 1) & mask();
+        }
+        slots_[at].id = id;
+    }
+
 private:
     struct Slot {
         std::uint32_t id;

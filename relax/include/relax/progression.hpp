@@ -34,6 +34,7 @@ struct Successor {
 struct ProgressionOptions {
     bool skip_dead_methods = true;  // leave out methods whose first task cannot be executed where it would come next
     bool use_stubborn_sets = true;  // leave out actions that can wait until others have been executed
+    bool use_macros = false;        // actions in a row count as one (TaskNetworks::form)
     bool forget_facts = true;       // states keep only the facts that matter to what is left to do
 };
 

@@ -40,30 +40,46 @@ struct SearchNode {
     SearchStep step() const { return {occurrence, method == kExecuted ? std::nullopt : std::optional(method)}; }
 };
 
-// Every node that the search has met, once for each pair of state and network.
+// Every node that the search has met: of those with the same state and form of network, the cheapest one is known.
 class DuplicateRegistry {
 public:
+    explicit DuplicateRegistry(const TaskNetworks& networks) : networks_(networks) {}
+
     SearchNode& operator[](NodeId id) { return nodes_[id]; }
     const SearchNode& operator[](NodeId id) const { return nodes_[id]; }
     std::size_t size() const { return nodes_.size(); }
 
     std::optional<NodeId> find(StateId state, NetworkId network) const {
-        return table_.find(hash(state, network),
-                           [&](NodeId id) { return nodes_[id].state == state && nodes_[id].network == network; });
+        const FormId form = networks_.form(network);
+        return table_.find(hash(state, form), [&](NodeId id) {
+            return nodes_[id].state == state && networks_.form(nodes_[id].network) == form;
+        });
     }
 
     // Add a node for a pair that is not yet there.
     NodeId add(StateId state, NetworkId network) {
         const auto id = static_cast<NodeId>(nodes_.size());
         nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false, false});
-        table_.add(hash(state, network), id,
-                   [this](NodeId other) { return hash(nodes_[other].state, nodes_[other].network); });
+        table_.add(hash(state, networks_.form(network)), id, [this](NodeId other) { return hash(other); });
+        return id;
+    }
+
+    // Add a node for another network of the same form, to be known in the place of the old one.
+    NodeId replace(NodeId old, NetworkId network) {
+        const auto id = static_cast<NodeId>(nodes_.size());
+        nodes_.push_back(nodes_[old]);
+        nodes_[id].network = network;
+        nodes_[id].h += networks_.bound(network) - networks_.bound(nodes_[old].network);
+        nodes_[old].is_expanded = true;
+        table_.replace(hash(old), old, id);
         return id;
     }
 
 private:
-    static std::uint64_t hash(StateId state, NetworkId network) { return mix((std::uint64_t{state} << 32) | network); }
+    std::uint64_t hash(NodeId id) const { return hash(nodes_[id].state, networks_.form(nodes_[id].network)); }
+    static std::uint64_t hash(StateId state, FormId form) { return mix((std::uint64_t{state} << 32) | form); }
 
+    const TaskNetworks& networks_;
     SegmentedArray<SearchNode> nodes_;
     IdTable table_;
 };

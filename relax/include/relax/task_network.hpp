@@ -18,6 +18,7 @@
 namespace relax {
 
 using NetworkId = std::uint32_t;
+using FormId = std::uint32_t;
 
 // An occurrence of a task in a network: its index there.
 struct Occurrence {
@@ -53,12 +54,18 @@ public:
     // The sum of the tasks' decomposition-graph bounds.
     virtual Cost bound(NetworkId network) const = 0;
     virtual std::uint32_t size(NetworkId network) const = 0;
+    // Networks of one form can be accomplished in the same ways but for actions that come in another network's place:
+    // from there the bounds, and so the costs to come, differ by what these cost.
+    virtual FormId form(NetworkId network) const { return network; }
+    // No state that can be reached lets the network's actions be executed.
+    virtual bool is_impossible(NetworkId /*network*/) const { return false; }
 
     bool is_empty(NetworkId network) const { return size(network) == 0; }
 };
 
 // `task_bounds`: by TaskId, see tdg_bound.
-std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds);
+std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+                                                 bool use_macros);
 
 }  // namespace relax
 

@@ -1,18 +1,22 @@
 #ifndef RELAX_TOTALLY_ORDERED_NETWORKS_HPP
 #define RELAX_TOTALLY_ORDERED_NETWORKS_HPP
 
+#include <optional>
 #include <vector>
 
 #include "relax/id_table.hpp"
+#include "relax/macro_actions.hpp"
 #include "relax/segmented_array.hpp"
 #include "relax/task_network.hpp"
 
 namespace relax {
 
-// Lists of tasks: a first task and the number of the rest. Equal lists have equal numbers.
+// Lists of tasks: a first task and the number of the rest. Equal lists have equal numbers. Actions that stand together
+// in a list will be executed one after the other, so a list's form has a macro-action in their place.
 class TotallyOrderedNetworks final : public TaskNetworks {
 public:
-    TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds);
+    // `use_macros`: whether forms are wanted.
+    TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, bool use_macros);
 
     // Every method orders its subtasks totally.
     static bool fits(const GroundProblem& problem);
@@ -26,6 +30,8 @@ public:
     NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
     Cost bound(NetworkId network) const override { return cells_[network].bound; }
     std::uint32_t size(NetworkId network) const override { return cells_[network].size; }
+    FormId form(NetworkId network) const override { return macros_ ? cells_[network].form : network; }
+    bool is_impossible(NetworkId network) const override { return macros_ && cells_[network].form == kImpossible; }
 
 private:
     struct Cell {
@@ -33,10 +39,19 @@ private:
         TaskId first;
         NetworkId rest;
         std::uint32_t size;
+        FormId form;
+    };
+    // A list of tasks and macro-actions: the latter's numbers come after those of tasks.
+    struct Form {
+        std::uint32_t first;
+        FormId rest;
     };
     static constexpr NetworkId kEmpty = 0;
+    static constexpr FormId kImpossible = static_cast<FormId>(-1);
 
     NetworkId intern(TaskId first, NetworkId rest);
+    FormId form_of(TaskId first, FormId rest);
+    FormId intern_form(std::uint32_t first, FormId rest);
 
     const GroundProblem& problem_;
     std::vector<Cost> task_bounds_;
@@ -44,6 +59,9 @@ private:
     SegmentedArray<Cell> cells_;
     IdTable table_;
     std::vector<TaskId> earlier_;
+    std::optional<MacroActions> macros_;
+    SegmentedArray<Form> forms_;
+    IdTable form_table_;
 };
 
 }  // namespace relax

@@ -98,6 +98,7 @@ class SearchSwitches:
     """Leave out actions that can wait: their order with the others makes no difference."""
     forget_facts: bool = True
     """States keep only the facts that something still to be done may read."""
+    merge_sequences: bool = True
     learn_branching: bool = True
     follow_forced: bool = True
     """Go on at once from a node that has but one way to go on; it is never open nor evaluated."""
@@ -228,6 +229,7 @@ def improving_plans(
         options.skip_dead_methods = switches.skip_dead_methods
         options.use_stubborn_sets = switches.stubborn_sets
         options.forget_facts = switches.forget_facts
+        options.merge_sequences = switches.merge_sequences
         options.learn_branching = switches.learn_branching
         options.follow_forced = switches.follow_forced
         best = run.best
