@@ -204,6 +204,7 @@ std::uint64_t FindPlans::work_of_a_node(const AdaptiveHeuristic& heuristic) cons
 }
 
 void FindPlans::expand(NodeId id) {
+    const Cost f = priority(id);
     nodes_[id].is_expanded = true;
     ++statistics_.expanded;
     progression_.expand(nodes_[id].state, nodes_[id].network, successors_);
@@ -211,7 +212,11 @@ void FindPlans::expand(NodeId id) {
         note_branching(id);
     }
     for (const Successor& successor : successors_) {
-        if (const auto next = generate(id, successor)) {
+        auto next = generate(id, successor);
+        if (next && priority(*next) <= f) {
+            next = follow(*next);
+        }
+        if (next) {
             push(*next);
         }
     }
@@ -229,18 +234,18 @@ void FindPlans::note_branching(NodeId id) {
     }
 }
 
-// Go on from a node that no heuristic has been asked about as long as there is but one way. Returns where that leads,
-// unless to a dead end, a goal, or what is known or too dear. The nodes between are never asked about.
+// Go on from a node as long as there is but one way and f stays as it is. Returns where that leads, unless to a dead
+// end, a goal, or what is known or too dear. The nodes between are never open, and no heuristic is asked about them.
 std::optional<NodeId> FindPlans::follow(NodeId id) {
-    if (!options_.follow_forced || nodes_[id].heuristics_asked > 0) {
-        return id;
-    }
-    for (std::uint32_t step = 0; step < kMostForcedSteps; ++step) {
-        if (!progression_.expand_if_forced(nodes_[id].state, nodes_[id].network, successors_)) {
+    const Cost f = priority(id);
+    for (std::uint32_t step = 0; options_.follow_forced && step < kMostForcedSteps && priority(id) <= f; ++step) {
+        SearchNode& node = nodes_[id];
+        if (node.is_followed || !progression_.expand_if_forced(node.state, node.network, forced_)) {
+            node.is_followed = true;
             return id;
         }
-        nodes_[id].is_expanded = true;
-        const auto next = successors_.empty() ? std::nullopt : generate(id, successors_.front());
+        node.is_expanded = true;
+        const auto next = forced_.empty() ? std::nullopt : generate(id, forced_.front());
         if (!next) {
             return std::nullopt;
         }

@@ -84,6 +84,7 @@ private:
     bool is_done_ = false;
     bool is_torn_ = false;  // memory ran out in the middle of an expansion
     std::vector<Successor> successors_;
+    std::vector<Successor> forced_;
 };
 
 }  // namespace relax

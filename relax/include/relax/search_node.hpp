@@ -26,6 +26,7 @@ struct SearchNode {
     std::uint8_t heuristics_asked;  // how many; `h` includes what they told
     bool is_expanded;               // at its present g
     bool is_forced;                 // its parent has no other successor
+    bool is_followed;               // there are several ways to go on from here
 
     static constexpr MethodId kExecuted = std::numeric_limits<MethodId>::max();
 
@@ -59,7 +60,7 @@ public:
     // Add a node for a pair that is not yet there.
     NodeId add(StateId state, NetworkId network) {
         const auto id = static_cast<NodeId>(nodes_.size());
-        nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false, false});
+        nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false, false, false});
         table_.add(hash(state, networks_.form(network)), id, [this](NodeId other) { return hash(other); });
         return id;
     }
