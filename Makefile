@@ -26,7 +26,7 @@ demo: $(VENV)/.installed  ## plan for a vehicle that avoids, ignores and seeks r
 	@$(RUN) examples/demo.py $(AV)
 
 test: $(VENV)/.installed  ## run the whole test suite (with more random examples where CI is set)
-	$(RUN) -m pytest --hypothesis-profile=$(HYPOTHESIS_PROFILE) $(PYTEST_OPTIONS)
+	$(RUN) -m pytest -n auto --hypothesis-profile=$(HYPOTHESIS_PROFILE) $(PYTEST_OPTIONS)
 
 lint: $(VENV)/.installed $(VENV)/.lint-tools  ## check style, types, layers and formatting
 	$(NOX) lint
