@@ -1,15 +1,50 @@
 #include "relax/tdg_bound.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <numeric>
 #include <queue>
 #include <utility>
 
 namespace relax {
 
+namespace {
+
+// By TaskId: the methods with that subtask, once for each time they have it.
+class Occurrences {
+public:
+    explicit Occurrences(const GroundProblem& problem) : ends_(problem.task_count() + 1, 0) {
+        for (MethodId method = 0; method < problem.method_count(); ++method) {
+            for (const TaskId subtask : problem.method_subtasks[method]) {
+                ++ends_[subtask + 1];
+            }
+        }
+        std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+        methods_.resize(ends_.back());
+        std::vector<std::size_t> next(ends_.begin(), ends_.end() - 1);
+        for (MethodId method = 0; method < problem.method_count(); ++method) {
+            for (const TaskId subtask : problem.method_subtasks[method]) {
+                methods_[next[subtask]++] = method;
+            }
+        }
+    }
+
+    std::span<const MethodId> operator[](TaskId task) const {
+        return std::span(methods_).subspan(ends_[task], ends_[task + 1] - ends_[task]);
+    }
+
+private:
+    std::vector<std::size_t> ends_;  // where the rows end, after where the first one begins
+    std::vector<MethodId> methods_;
+};
+
+}  // namespace
+
 std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs) {
     std::vector<Cost> bound(problem.task_count(), kNoDecomposition);
-    std::vector<std::vector<MethodId>> methods_with(problem.task_count());  // once for each occurrence of the task
-    std::vector<std::size_t> missing(problem.method_count());               // subtasks that have no bound yet
+    const Occurrences methods_with(problem);
+    std::vector<std::uint32_t> missing(problem.method_count());  // subtasks that have no bound yet
     std::vector<Cost> sum(problem.method_count(), 0);
     std::priority_queue<std::pair<Cost, TaskId>, std::vector<std::pair<Cost, TaskId>>, std::greater<>> queue;
 
@@ -21,10 +56,7 @@ std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> 
     };
     for (MethodId method = 0; method < problem.method_count(); ++method) {
         const auto subtasks = problem.method_subtasks[method];
-        missing[method] = subtasks.size();
-        for (const TaskId subtask : subtasks) {
-            methods_with[subtask].push_back(method);
-        }
+        missing[method] = static_cast<std::uint32_t>(subtasks.size());
         if (subtasks.empty()) {
             offer(problem.method_task[method], 0);
         }
