@@ -1,0 +1,125 @@
+// Mutexes and macro-actions without Python, for sanitizer builds: a lorry, a parcel and three places.
+
+#include <cstdio>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "relax/macro_actions.hpp"
+#include "relax/mutexes.hpp"
+#include "relax/state.hpp"
+
+namespace {
+
+using Facts = std::vector<relax::FactId>;
+
+constexpr relax::FactId kPlaces = 3;
+// Facts: the lorry is at 0, 1, 2; the parcel is at 3, 4, 5, or in the lorry: 6.
+constexpr relax::FactId kInside = 2 * kPlaces;
+
+void add_action(relax::GroundProblem& problem, const Facts& needs, const Facts& adds, const Facts& deletes) {
+    problem.preconditions.add_row(needs);
+    problem.negative_preconditions.finish_row();
+    problem.effect_conditions.finish_row();
+    problem.effect_negative_conditions.finish_row();
+    problem.effect_adds.add_row(adds);
+    problem.effect_deletes.add_row(deletes);
+    problem.effect_begin.push_back(problem.effect_begin.back() + 1);
+    problem.action_schema.push_back(0);
+}
+
+relax::ActionId drive(relax::FactId from, relax::FactId to) { return from * kPlaces + to; }
+relax::ActionId load(relax::FactId at) { return kPlaces * kPlaces + 2 * at; }
+relax::ActionId unload(relax::FactId at) { return load(at) + 1; }
+
+relax::GroundProblem make_problem() {
+    relax::GroundProblem problem;
+    problem.fact_predicate.assign(kInside + 1, 0);
+    problem.effect_begin.push_back(0);
+    for (relax::FactId from = 0; from < kPlaces; ++from) {
+        for (relax::FactId to = 0; to < kPlaces; ++to) {
+            add_action(problem, {from}, {to}, {from});
+        }
+    }
+    for (relax::FactId at = 0; at < kPlaces; ++at) {
+        add_action(problem, {at, kPlaces + at}, {kInside}, {kPlaces + at});
+        add_action(problem, {at, kInside}, {kPlaces + at}, {kInside});
+    }
+    problem.initial_state = {0, kPlaces + 1};
+    return problem;
+}
+
+// Every pair that no reachable state has is a mutex, and no other: on this problem h^2 misses nothing.
+bool finds_mutexes(const relax::GroundProblem& problem) {
+    const relax::StateTransition transition(problem);
+    std::set<relax::StateBits> reached{transition.initial_state()};
+    std::vector<relax::StateBits> pending(reached.begin(), reached.end());
+    relax::StateBits next(transition.word_count());
+    while (!pending.empty()) {
+        const relax::StateBits state = pending.back();
+        pending.pop_back();
+        for (relax::ActionId action = 0; action < problem.action_count(); ++action) {
+            if (transition.is_applicable(action, state)) {
+                transition.apply(action, state, next);
+                if (reached.insert(next).second) {
+                    pending.push_back(next);
+                }
+            }
+        }
+    }
+    const relax::Mutexes mutexes(problem);
+    for (relax::FactId one = 0; one <= kInside; ++one) {
+        for (relax::FactId other = 0; other <= kInside; ++other) {
+            bool together = one == other;
+            for (const relax::StateBits& state : reached) {
+                together = together || (relax::holds(state, one) && relax::holds(state, other));
+            }
+            if (mutexes.are_mutex(one, other) == together) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+std::optional<relax::MacroId> macro_of(relax::MacroActions& macros, const std::vector<relax::ActionId>& actions) {
+    relax::MacroId macro = relax::MacroActions::kNothing;
+    for (std::size_t at = actions.size(); at-- > 0;) {
+        const auto longer = macros.prepend(actions[at], macro);
+        if (!longer) {
+            return std::nullopt;
+        }
+        macro = *longer;
+    }
+    return macro;
+}
+
+}  // namespace
+
+int main() {
+    const relax::GroundProblem problem = make_problem();
+    relax::MacroActions macros(problem);
+    const auto direct = macro_of(macros, {drive(0, 2)});
+    const auto fetch = macro_of(macros, {load(0), drive(0, 1), unload(1)});
+    int failed = 0;
+    const auto check = [&failed](bool good, const std::string& what) {
+        if (!good) {
+            std::printf("wrong: %s\n", what.c_str());
+            ++failed;
+        }
+    };
+    check(finds_mutexes(problem), "mutexes");
+    check(direct && macro_of(macros, {drive(0, 1), drive(1, 2)}) == direct, "a way round changes no more");
+    check(direct && macro_of(macros, {drive(0, 1)}) != direct, "another place");
+    check(fetch && macro_of(macros, {load(0), drive(0, 2), drive(2, 1), unload(1)}) == fetch,
+          "a parcel by a way round");
+    check(fetch && macro_of(macros, {drive(0, 1)}) != fetch, "a parcel, or none");
+    check(macro_of(macros, {drive(0, 0), drive(0, 2)}) == direct, "standing still");
+    check(macro_of(macros, {drive(0, 0)}) != relax::MacroActions::kNothing, "what changes nothing may need something");
+    check(!macro_of(macros, {drive(0, 1), drive(2, 1)}), "not there");
+    check(!macro_of(macros, {load(0), load(0)}), "loaded already");
+    check(!macro_of(macros, {drive(0, 1), load(1), load(2)}), "the parcel is nowhere else");
+    std::printf("%d failed\n", failed);
+    return failed == 0 ? 0 : 1;
+}
