@@ -88,9 +88,8 @@ MacroId MacroActions::compose(ActionId action, MacroId rest) {
     }
     // What holds before anyway is no change.
     std::erase_if(both.made, [&](Literal literal) {
-        return has(both.needed, literal) || std::ranges::any_of(both.needed, [&](Literal needed) {
-            return contradicts(needed, negation(literal));
-        });
+        return has(both.needed, literal) ||
+               std::ranges::any_of(both.needed, [&](Literal needed) { return contradicts(needed, negation(literal)); });
     });
     return intern(std::move(both));
 }
@@ -111,6 +110,8 @@ MacroId MacroActions::intern(Macro macro) {
     return id;
 }
 
-std::uint64_t MacroActions::hash(const Macro& macro) { return combine(hash_values(macro.needed), hash_values(macro.made)); }
+std::uint64_t MacroActions::hash(const Macro& macro) {
+    return combine(hash_values(macro.needed), hash_values(macro.made));
+}
 
 }  // namespace relax

@@ -9,13 +9,18 @@ namespace relax {
 
 namespace {
 
-constexpr std::size_t kMostWords = 2'000'000;       // of memory
-constexpr std::uint64_t kMostWork = 20'000'000;     // in words looked at
+constexpr std::size_t kMostWords = 2'000'000;    // of memory
+constexpr std::uint64_t kMostWork = 20'000'000;  // in words looked at
 
 }  // namespace
 
 Mutexes::Mutexes(const GroundProblem& problem)
-    : problem_(problem), words_((problem.fact_count() + 63) / 64), changed_(problem.fact_count(), 0), reached_(words_, 0), beside_(words_), after_(words_) {
+    : problem_(problem),
+      words_((problem.fact_count() + 63) / 64),
+      changed_(problem.fact_count(), 0),
+      reached_(words_, 0),
+      beside_(words_),
+      after_(words_) {
     const std::size_t words = problem.fact_count() * words_;
     if (words > kMostWords) {
         return;

@@ -10,8 +10,8 @@
 namespace relax {
 
 // Which compound task to decompose first: the one that leaves fewest nodes to be expanded. Learned from the nodes so
-// far, as mixed-integer programming learns on which variable to branch (pseudo-costs: Benichou et al. 1971); at first it
-// is the task with the fewest methods.
+// far, as mixed-integer programming learns on which variable to branch (pseudo-costs: Benichou et al. 1971); at first
+// it is the task with the fewest methods.
 class Branching {
 public:
     explicit Branching(const GroundProblem& problem) : problem_(problem), records_(problem.task_count(), {0, 0}) {}

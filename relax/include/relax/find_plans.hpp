@@ -22,8 +22,8 @@ namespace relax {
 
 // FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower
 // bound until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristics are
-// asked, one by one, and if f rises they are put back. A pair of state and network is kept once and reopened when a
-// cheaper way to it turns up.
+// asked, one by one, and if f rises they are put back. Of nodes with the same state and networks of one form the best
+// is kept, and reopened when a cheaper way to it turns up.
 //
 // Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
 class FindPlans {

@@ -21,7 +21,8 @@ namespace relax {
 // A choice between the cases of an action counts as primitive: which case it is depends on the state.
 class Linearisation {
 public:
-    Linearisation(Progression& progression, Limits& limits) : progression_(progression), limits_(limits), nodes_(progression.networks()) {}
+    Linearisation(Progression& progression, Limits& limits)
+        : progression_(progression), limits_(limits), nodes_(progression.networks()) {}
 
     struct Order {
         std::vector<SearchStep> steps;

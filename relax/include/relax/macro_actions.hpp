@@ -16,8 +16,8 @@ namespace relax {
 
 using MacroId = std::uint32_t;
 
-// Sequences of actions as one action: what it needs before and what it has changed after. Sequences that need and change
-// the same are the same macro-action, whatever they cost. No state that can be reached tells them apart.
+// Sequences of actions as one action: what it needs before and what it has changed after. Sequences that need and
+// change the same are the same macro-action, whatever they cost. No state that can be reached tells them apart.
 class MacroActions {
 public:
     static constexpr MacroId kNothing = 0;  // the empty sequence, and all that need and change nothing

@@ -28,7 +28,9 @@ private:
     static bool contains(std::span<const std::uint64_t> row, FactId fact) {
         return (row[fact / 64] >> (fact % 64) & 1U) != 0;
     }
-    std::span<const std::uint64_t> row(FactId fact) const { return std::span(together_).subspan(fact * words_, words_); }
+    std::span<const std::uint64_t> row(FactId fact) const {
+        return std::span(together_).subspan(fact * words_, words_);
+    }
     bool has_news(ActionId action, std::uint32_t since) const;
     void execute(ActionId action);
     void put_together(FactId fact, const Row& others);

@@ -9,6 +9,7 @@
 #include "relax/ids.hpp"
 #include "relax/progression.hpp"
 #include "relax/segmented_array.hpp"
+#include "relax/tdg_bound.hpp"
 
 namespace relax {
 
@@ -26,7 +27,7 @@ struct SearchNode {
     std::uint8_t heuristics_asked;  // how many; `h` includes what they told
     bool is_expanded;               // at its present g
     bool is_forced;                 // its parent has no other successor
-    bool is_followed;               // there are several ways to go on from here
+    bool is_followed;               // there are several ways to go on
 
     static constexpr MethodId kExecuted = std::numeric_limits<MethodId>::max();
 
@@ -65,12 +66,18 @@ public:
         return id;
     }
 
-    // Add a node for another network of the same form, to be known in the place of the old one.
+    // Returns the node to be known in the place of the old one, for a network of the same form: itself if the network
+    // is the same, or else a new one, since what the old one led to goes on from its own network.
     NodeId replace(NodeId old, NetworkId network) {
+        if (nodes_[old].network == network) {
+            return old;
+        }
         const auto id = static_cast<NodeId>(nodes_.size());
         nodes_.push_back(nodes_[old]);
         nodes_[id].network = network;
-        nodes_[id].h += networks_.bound(network) - networks_.bound(nodes_[old].network);
+        if (nodes_[id].h < kNoDecomposition) {
+            nodes_[id].h += networks_.bound(network) - networks_.bound(nodes_[old].network);
+        }
         nodes_[old].is_expanded = true;
         table_.replace(hash(old), old, id);
         return id;

@@ -26,7 +26,7 @@ struct SearchOptions : ProgressionOptions {
     bool ask_adaptively = true;        // ask an admissible heuristic rarely while it tells no more than the cheap bound
     bool merge_sequences = true;       // networks whose actions in a row need and change the same are the same
     bool learn_branching = true;       // decompose the task that has left the fewest nodes to expand so far
-    bool follow_forced = true;         // go on at once where there is but one way
+    bool follow_forced = true;         // pass through nodes with but one way to go on
     std::optional<Cost> upper_bound;   // only plans that cost less are wanted
     bool branches_over_all = false;    // PlanBased tries every compound task of a network, not one
     bool checks_preconditions = true;  // PlanBased leaves out networks with a precondition that cannot be met

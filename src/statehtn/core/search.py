@@ -99,9 +99,11 @@ class SearchSwitches:
     forget_facts: bool = True
     """States keep only the facts that something still to be done may read."""
     merge_sequences: bool = True
+    """Networks in total order are the same if they differ in actions in a row that need and change the same."""
     learn_branching: bool = True
+    """Decompose the compound task whose decompositions have survived least so far, not that with the fewest methods."""
     follow_forced: bool = True
-    """Go on at once from a node that has but one way to go on; it is never open nor evaluated."""
+    """Pass through nodes that have but one way to go on, as long as f stays as it is."""
 
 
 @dataclass(frozen=True, slots=True)
