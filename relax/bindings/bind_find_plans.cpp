@@ -111,6 +111,7 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("skip_dead_methods", &relax::SearchOptions::skip_dead_methods)
         .def_rw("use_stubborn_sets", &relax::SearchOptions::use_stubborn_sets)
         .def_rw("forget_facts", &relax::SearchOptions::forget_facts)
+        .def_rw("check_endings", &relax::SearchOptions::check_endings)
         .def_rw("merge_sequences", &relax::SearchOptions::merge_sequences)
         .def_rw("learn_branching", &relax::SearchOptions::learn_branching)
         .def_rw("follow_forced", &relax::SearchOptions::follow_forced)

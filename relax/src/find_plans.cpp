@@ -37,6 +37,9 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       statistics_(statistics),
       progression_(problem, costs_, tdg_bound(problem, costs_), progression_options(options)),
       nodes_(progression_.networks()) {
+    if (options.check_endings && !progression_.networks().are_totally_ordered()) {
+        ending_.emplace(problem);
+    }
     const bool asks_always = !options.ask_adaptively || !is_admissible(options.heuristic);
     heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
     for (const HeuristicKind kind : options.more_heuristics) {
@@ -164,6 +167,11 @@ bool FindPlans::is_stale(const OpenList::Entry& entry) const {
 // whether none does; else the node is a dead end or goes back to the open list.
 bool FindPlans::evaluate(NodeId id, Cost f) {
     SearchNode& node = nodes_[id];
+    if (!can_end(node)) {
+        ++statistics_.dead_ends;
+        node.h = kDeadEnd;
+        return false;
+    }
     while (node.heuristics_asked < heuristics_.size()) {
         AdaptiveHeuristic& heuristic = heuristics_[node.heuristics_asked++];
         if (!heuristic.is_worth_asking()) {
@@ -193,6 +201,11 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
         }
     }
     return true;
+}
+
+bool FindPlans::can_end(const SearchNode& node) {
+    return !ending_ || node.heuristics_asked > 0 || !ending_->is_worth_asking() ||
+           ending_->is_possible(progression_.ordered_tasks(node.network));
 }
 
 // What a node has cost so far on average, this heuristic left out. The first one is always worth its work.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "relax/adaptive_heuristic.hpp"
+#include "relax/ending.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
@@ -57,6 +58,7 @@ private:
     bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic); }
     bool is_stale(const OpenList::Entry& entry) const;
     bool evaluate(NodeId id, Cost f);
+    bool can_end(const SearchNode& node);
     std::uint64_t work_of_a_node(const AdaptiveHeuristic& heuristic) const;
     void expand(NodeId id);
     void note_branching(NodeId id);
@@ -75,6 +77,7 @@ private:
     Limits& limits_;
     SearchStatistics& statistics_;
     Progression progression_;
+    std::optional<Ending> ending_;
     std::vector<AdaptiveHeuristic> heuristics_;
     DuplicateRegistry nodes_;
     SegmentedArray<Cost> guides_;  // by NodeId: the estimate of a heuristic that is not admissible

@@ -67,6 +67,12 @@ public:
     // What heuristics see of a node; valid until the next call.
     NodeView view(StateId state, NetworkId network);
 
+    // The network's tasks and their order; valid until the next call.
+    const OrderedTasks& ordered_tasks(NetworkId network) {
+        networks_->ordered_tasks(network, ordered_tasks_);
+        return ordered_tasks_;
+    }
+
     const StateRegistry& states() const { return states_; }
     TaskNetworks& networks() { return *networks_; }
     // Tell it what becomes of the nodes, and the tasks are chosen the better.

@@ -98,6 +98,8 @@ class SearchSwitches:
     """Leave out actions that can wait: their order with the others makes no difference."""
     forget_facts: bool = True
     """States keep only the facts that something still to be done may read."""
+    endings: bool = True
+    """Leave out networks in partial order whose last actions cannot be executed in any order."""
     merge_sequences: bool = True
     """Networks in total order are the same if they differ in actions in a row that need and change the same."""
     learn_branching: bool = True
@@ -231,6 +233,7 @@ def improving_plans(
         options.skip_dead_methods = switches.skip_dead_methods
         options.use_stubborn_sets = switches.stubborn_sets
         options.forget_facts = switches.forget_facts
+        options.check_endings = switches.endings
         options.merge_sequences = switches.merge_sequences
         options.learn_branching = switches.learn_branching
         options.follow_forced = switches.follow_forced
