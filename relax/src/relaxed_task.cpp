@@ -1,7 +1,5 @@
 #include "relax/relaxed_task.hpp"
 
-#include <algorithm>
-#include <bit>
 
 #include "relax/canonical_order.hpp"
 #include "relax/state.hpp"

@@ -5,8 +5,9 @@ Usage: python -m tests.benchmarks.ablation --root DIR --baseline FILE.csv [--out
 
 First the complete configuration solves the problems of the baseline, as `tests.benchmarks.search` does, with 5 s for
 each search. Those that it solves in 5 ms to 5 s are what is compared: shorter ones tell nothing, longer ones take too
-long. Then it is run on them again, and so is every variant: one field of `SearchSwitches` turned off, or one admissible
-heuristic alone instead of `auto`. A variant has a second and 20 times as long as the complete configuration took.
+long. Then it is run on each of them again, and so is every variant: one field of `SearchSwitches` turned off, or one
+admissible heuristic alone instead of `auto`. A variant has a second and 20 times as long as the complete configuration
+took.
 
 Prints a table: problems solved; the geometric mean of how many times as long the variant takes (where it does not solve
 a problem, the time that it had, so the mean is too low), and of how many times as many nodes it expands where it solves
@@ -55,12 +56,24 @@ def variants() -> Iterator[Variant]:
             yield Variant(f"{name} alone", heuristic=name)
 
 
-def run_variant(variant: Variant, name: str, lines: list[Line], options: argparse.Namespace) -> list[Row]:
-    """Measure a variant; its rows are kept under the name."""
-    print(f"\n{name}", flush=True)
+def run_variant(
+    variant: Variant, name: str, lines: list[Line], options: argparse.Namespace, resume: bool = False
+) -> list[Row]:
+    """Measure a variant; its rows are kept under the name. Returns what is kept there already, too, to `resume`."""
+    print(f"{name:<28} ", end="", flush=True)
     output = options.output and options.output / f"{name.replace(' ', '-')}.csv"
-    settings = {"output": output, "heuristic": variant.heuristic, "without": variant.without}
+    settings = {"output": output, "heuristic": variant.heuristic, "without": variant.without, "resume": resume}
     return run_all(lines, argparse.Namespace(**vars(options) | settings | {"most_seconds": float("inf")}))
+
+
+def run_variants(wanted: list[Variant], lines: list[Line], options: argparse.Namespace) -> dict[str, list[Row]]:
+    """Measure every variant on one problem after the other: machines are not equally fast all the time."""
+    found: dict[str, dict[str, Row]] = {one.name: {} for one in wanted}
+    for index, line in enumerate(lines):
+        for one in wanted:
+            rows = run_variant(one, one.name, [line], options, resume=options.resume or index > 0)
+            found[one.name] |= {row.name: row for row in rows}
+    return {name: list(rows.values()) for name, rows in found.items()}
 
 
 def choose(lines: list[Line], rows: list[Row]) -> list[Line]:
@@ -121,11 +134,11 @@ def main() -> None:
     if options.output:
         options.output.mkdir(parents=True, exist_ok=True)
     lines = [line | {"engine_limit": str(MOST_SECONDS)} for line in read_baseline(options)]
-    chosen = choose(lines, run_variant(COMPLETE, "choice", lines, options))
+    chosen = choose(lines, run_variant(COMPLETE, "choice", lines, options, options.resume))
     if not chosen:
         parser.error(f"no problem takes the complete configuration between {LEAST_SECONDS:g} and {MOST_SECONDS:g} s")
     wanted = [one for one in variants() if one == COMPLETE or options.variant in one.name]
-    found = {one.name: run_variant(one, one.name, chosen, options) for one in wanted}
+    found = run_variants(wanted, chosen, options)
     limits = {name_of(line): float(line["engine_limit"]) for line in chosen}
     wrong = other_costs(found)
     text = "\n".join(ablation_table(found, limits))
