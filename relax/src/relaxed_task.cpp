@@ -1,6 +1,5 @@
 #include "relax/relaxed_task.hpp"
 
-
 #include "relax/canonical_order.hpp"
 #include "relax/state.hpp"
 
