@@ -47,21 +47,23 @@ KEYS = [
     "statistics",
 ]
 UNSOLVABLE = PROBLEM.replace("(away)", "(home)")
-# One can be here or there but never both; relaxed reachability does not see that, and the networks grow for ever.
+# One can be in any two of these places but never in all three; neither relaxed reachability nor pairs of facts tell
+# that, and the networks grow for ever.
 ENDLESS_DOMAIN = """
 (define (domain endless)
-  (:predicates (here) (there))
+  (:predicates (here) (there) (yonder))
   (:functions (total-cost) - number)
   (:task wander :parameters ())
-  (:method on :parameters () :task (wander) :subtasks (and (go) (back) (wander) (wander)))
+  (:method on :parameters () :task (wander) :subtasks (and (go) (back) (forth) (wander) (wander)))
   (:method rest :parameters () :task (wander) :subtasks (and (go)))
-  (:action go :parameters () :effect (and (there) (not (here)) (increase (total-cost) 1)))
+  (:action go :parameters () :effect (and (yonder) (not (here)) (increase (total-cost) 1)))
   (:action back :parameters () :effect (and (here) (not (there)) (increase (total-cost) 1)))
-  (:action be-everywhere :parameters () :precondition (and (here) (there))))
+  (:action forth :parameters () :effect (and (there) (not (yonder)) (increase (total-cost) 1)))
+  (:action be-everywhere :parameters () :precondition (and (here) (there) (yonder))))
 """
 ENDLESS_PROBLEM = """
 (define (problem p) (:domain endless)
-  (:htn :parameters () :ordered-subtasks (and (wander) (be-everywhere))) (:init (here)))
+  (:htn :parameters () :ordered-subtasks (and (wander) (be-everywhere))) (:init (here) (there)))
 """
 
 
