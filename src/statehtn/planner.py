@@ -101,18 +101,24 @@ def plan_files(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
+    better: Callable[[Result, Problem], None] | None = None,
 ) -> tuple[Result, Problem | None]:
     """Read a problem from HDDL files and plan; the limits hold for the reading, too.
 
-    `costs` is a file with costs for the domain's actions (`read_costs`). Returns the result, and the problem where it
-    was read to its end. The other arguments and what it raises: see `plan`
-    and `read_hddl`.
+    `costs` is a file with costs for the domain's actions (`read_costs`). `better` is called with each better plan when
+    it is found. Returns the result, and the problem where it was read to its end. The other arguments and what it
+    raises: see `plan` and `read_hddl`.
     """
     limits = Limits.starting_now(time_limit, memory_limit)
     read, statistics = measured_read(domain, problem, strict, limits, costs)
     if isinstance(read, Status):
         return no_plan(query, read, statistics), None
-    return _solve(read, query, limits, progress, statistics), read
+    if better is None:
+        return _solve(read, query, limits, progress, statistics), read
+    for result in _solutions(read, query, limits, progress, statistics, every_plan=True):
+        if result.plan is not None:
+            better(result, read)
+    return result, read
 
 
 def no_plan(query: Query, status: Status, statistics: Statistics, bound: float | None = None) -> Result:

@@ -6,14 +6,13 @@ import json
 import os
 import signal
 import stat
-import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
 
 from statehtn.cli import main
+from tests.processes import start, wait_until_signals_are_caught
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM, KEYS, UNSOLVABLE
 
@@ -35,12 +34,6 @@ def files(tmp_path: Path) -> Files:
         path.write_text(text)
         names[name] = str(path)
     return names
-
-
-def start(*arguments: str, **options: object) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "statehtn", *arguments]
-    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
-    return subprocess.Popen(command, **streams)  # type: ignore[call-overload, no-any-return]
 
 
 def test_readable_plan(files: Files, capsys: pytest.CaptureFixture[str]) -> None:
@@ -101,6 +94,7 @@ def test_memory_limit(files: Files, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_in_a_result(files: Files, number: signal.Signals) -> None:
     process = start("plan", files["endless-domain"], files["endless"], "--json", "--time-limit", "20")
+    wait_until_signals_are_caught(process)
     time.sleep(1)
     process.send_signal(number)
     output, errors = process.communicate(timeout=5)

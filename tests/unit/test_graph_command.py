@@ -53,7 +53,7 @@ def test_values_for_an_agent(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "output", "words"),
     [
-        ([], "graph.pdf", "expected a name that ends in .graphml"),
+        ([], "graph.pdf", "expected a name that ends in .svg"),
         ([], "graph", "expected a name"),
         (["--kind", "cv-tdg", "--attitude", "averse", "--alpha", "1"], "g.dot", "shown on the gcv-tdg"),
         (["--attitude", "averse"], "g.dot", "alpha"),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
+from statehtn.cli.streams import emit
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.search import SEARCHES
@@ -15,6 +16,9 @@ from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.query import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
 from statehtn.top_planner import DEFAULT_TOP_HEURISTIC, TOP_HEURISTICS
+
+if TYPE_CHECKING:
+    from _typeshed import SupportsWrite
 
 PLAN_EPILOG = """heuristics:
   auto       three A* searches in turn, which share what they prove: with tdg, with lmcut,
@@ -57,6 +61,11 @@ class _Parser(argparse.ArgumentParser):
         """Raise a `UsageError` for a mistake on the command line."""
         raise UsageError(f"{message} (see '{self.prog} --help')")
 
+    def print_help(self, file: SupportsWrite[str] | None = None) -> None:
+        """Print the help as everything else is printed: with an error where that cannot be done."""
+        del file
+        emit(self.format_help().rstrip("\n"))
+
 
 class _ShowVersion(argparse.Action):
     """Print the version; it is looked up only when it is asked for."""
@@ -64,7 +73,7 @@ class _ShowVersion(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
         import statehtn
 
-        print(f"statehtn {statehtn.__version__}")
+        emit(f"statehtn {statehtn.__version__}")
         parser.exit()
 
 
@@ -87,7 +96,21 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     _add_compare(commands)
     _add_report(commands)
     _add_graph(commands)
-    return parser.parse_args(arguments)
+    return _with_stdin(parser.parse_args(arguments))
+
+
+def _with_stdin(options: argparse.Namespace) -> argparse.Namespace:
+    """Let `-` stand for standard input where a file is read.
+
+    Raises:
+        UsageError: it stands for two files.
+    """
+    dashes = [name for name in ("domain", "problem", "plan", "costs") if getattr(options, name, None) == "-"]
+    if len(dashes) > 1:
+        raise UsageError(f"standard input can be one file only, found '-' for {' and '.join(dashes)}")
+    for name in dashes:
+        setattr(options, name, "/dev/stdin")
+    return options
 
 
 def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
@@ -297,7 +320,10 @@ def _add_graph(commands: argparse._SubParsersAction[_Parser]) -> None:
         "--kind", choices=("cv-tdg", "gcv-tdg", "relaxed-model"), default="gcv-tdg", help="default: gcv-tdg"
     )
     _add_agent(parser)
-    parser.add_argument("--output", metavar="FILE", required=True, help="*.svg, *.dot, *.gv or *.graphml")
+    parser.add_argument("--output", metavar="FILE", required=True, help="*.svg, *.dot, *.gv or *.graphml; - for stdout")
+    parser.add_argument(
+        "--format", choices=("svg", "dot", "graphml"), help="what to write; default: as the name of FILE ends"
+    )
 
 
 def _count(text: str) -> int:

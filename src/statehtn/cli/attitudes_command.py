@@ -7,8 +7,9 @@ import json
 
 from statehtn.attitudes import compare_attitudes
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
-from statehtn.cli.files import emit, read_problem
+from statehtn.cli.files import read_problem
 from statehtn.cli.progress import ProgressLine
+from statehtn.cli.streams import emit
 
 
 def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:

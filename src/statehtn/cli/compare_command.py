@@ -16,7 +16,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import OutputError, emit
+from statehtn.cli.files import STDOUT
+from statehtn.cli.streams import OutputError, emit, say
 from statehtn.cli.tables import readable_summaries
 from statehtn.errors import InputError
 from statehtn.experiments.cluster import execute_on_cluster
@@ -38,13 +39,15 @@ def run_compare(options: argparse.Namespace) -> ExitCode:
         OutputError: a record cannot be written.
     """
     runs = _runs(options)
+    if options.output == STDOUT:
+        options.output = None
     try:
         rows = _to_stdout(runs, options) if options.output is None else _to_files(runs, options)
     except OSError as error:
         raise OutputError(f"cannot go on: {error.strerror}") from error
     except KeyboardInterrupt:
         again = "" if options.output is None else f"; the same command goes on where it stopped ('{options.output}')"
-        print(f"interrupted{again}", file=sys.stderr)
+        say(f"interrupted{again}")
         return ExitCode.INTERRUPTED
     if not options.quiet:
         _summarise(rows, options)
@@ -148,6 +151,6 @@ def _summarise(rows: list[Row], options: argparse.Namespace) -> None:
     if total.errors and options.output is not None:
         text += f"\n\nwhat the errors were: '{Path(options.output).with_suffix('.jsonl')}' (message)"
     if options.output is None:
-        print(text, file=sys.stderr)
+        say(text, raw=True)
     else:
-        emit(text)
+        emit(text, raw=True)

@@ -1,4 +1,4 @@
-"""Problems from files; text to standard output, and files that are written whole or not at all."""
+"""Problems from files, and files for results: whole or not at all, and never that of an earlier run."""
 
 from __future__ import annotations
 
@@ -6,13 +6,18 @@ import argparse
 import contextlib
 import os
 import stat
-import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
+from statehtn.cli.streams import OutputError, emit_file
 from statehtn.errors import UsageError
 from statehtn.hddl import read_hddl
 from statehtn.model import Problem
+from statehtn.streams import own_descriptor
+
+STDOUT = "-"
+TEMPORARY = ".statehtn-"
 
 
 def read_problem(options: argparse.Namespace) -> Problem:
@@ -29,84 +34,137 @@ def read_problem(options: argparse.Namespace) -> Problem:
     return read_costs(options.costs).apply(problem)
 
 
-class OutputError(Exception):
-    """A result could not be written (exit code 74)."""
+class OutputFile:
+    """Where a result goes: a regular file, which is replaced; a pipe or a device; `-` for standard output.
 
+    A regular file holds a whole result at any moment, or nothing. A pipe or a device takes one result, once.
 
-def emit(text: str) -> None:
-    """Print text and a newline on standard output; a reader that has gone away (`| head`) is no error.
+    Args:
+        name: as it stands on the command line.
 
     Raises:
-        OutputError: standard output cannot be written, because the disk is full, say.
+        UsageError: it cannot be written, and that is plain before time is spent on what it is to hold.
+        OutputError: the system does not take this name, because it is too long, say.
     """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.path = Path(os.path.realpath(name))  # of a symbolic link, the file it points to is replaced
+        self.descriptor = 1 if name == STDOUT else own_descriptor(name)
+        if self.descriptor is not None:
+            self.is_regular = False
+            return
+        with self._failing():
+            mode = _mode(self.path)
+        self.is_regular = mode is None or stat.S_ISREG(mode)
+        if mode is not None and stat.S_ISDIR(mode):
+            raise UsageError(f"cannot write '{name}': it is a directory")
+        if not self.path.parent.is_dir():
+            raise UsageError(f"cannot write '{name}': there is no directory '{Path(name).parent}'")
+        if not os.access(self.path.parent if mode is None else self.path, os.W_OK):
+            raise UsageError(f"cannot write '{name}': permission denied")
+
+    @property
+    def is_stdout(self) -> bool:
+        """Whether it is standard output."""
+        return self.descriptor == 1
+
+    def write(self, text: str) -> None:
+        """Write a result; a regular file holds what it held before until it holds all of the text.
+
+        Raises:
+            OutputError: it cannot be written.
+        """
+        if self.is_stdout:
+            emit_file(text)
+            return
+        with self._failing(), contextlib.suppress(BrokenPipeError):  # who reads no more has what it wants
+            if self.descriptor is not None:
+                _write(os.dup(self.descriptor), text)
+            elif self.is_regular and os.access(self.path.parent, os.W_OK):
+                _replace(self.path, text)
+            else:
+                _write(os.open(self.path, os.O_WRONLY | os.O_TRUNC), text)
+
+    def remove(self) -> None:
+        """Remove the file of an earlier run; pipes and devices stay.
+
+        Raises:
+            OutputError: it cannot be removed.
+        """
+        with self._failing():
+            if self.is_regular and _mode(self.path) is not None:
+                self.path.unlink()
+
+    @contextlib.contextmanager
+    def _failing(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise OutputError(f"cannot write '{self.name}': {error.strerror}") from error
+
+
+def _mode(path: Path) -> int | None:
+    """Return what kind of file is there, and with which permissions; None where there is none."""
     try:
-        print(text, flush=True)
-    except BrokenPipeError:
-        _silence_stdout()
-    except UnicodeEncodeError:
-        sys.stdout.buffer.write(text.encode(sys.stdout.encoding or "ascii", "replace") + b"\n")
-        sys.stdout.buffer.flush()
-    except OSError as error:
-        _silence_stdout()
-        raise OutputError(f"cannot write to standard output: {error.strerror}") from error
+        return path.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return None
 
 
-def _silence_stdout() -> None:
-    """Send what is still buffered nowhere, so that the interpreter does not try again when it ends."""
-    with contextlib.suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-def check_writable(name: str) -> None:
-    """Find out early whether a file can be written, before time is spent on its content.
-
-    Raises:
-        UsageError: it cannot.
-    """
-    path = Path(name)
-    if path.is_dir():
-        raise UsageError(f"cannot write '{name}': it is a directory")
-    if not path.parent.is_dir():
-        raise UsageError(f"cannot write '{name}': there is no directory '{path.parent}'")
-    if not os.access(path if path.exists() else path.parent, os.W_OK):
-        raise UsageError(f"cannot write '{name}': permission denied")
-
-
-def write_whole(name: str, text: str) -> None:
-    """Write a file so that it holds all of the text, or what it held before.
-
-    Raises:
-        OutputError: the file cannot be written.
-    """
-    path = Path(os.path.realpath(name))  # of a symbolic link, the file it points to is replaced
-    try:
-        if path.exists() and not stat.S_ISREG(path.stat().st_mode):
-            path.write_text(text, encoding="utf-8")  # a device or a pipe cannot be replaced
-        else:
-            _replace(path, text)
-    except OSError as error:
-        raise OutputError(f"cannot write '{name}': {error.strerror}") from error
+def _write(descriptor: int, text: str) -> None:
+    """Write a text to an open file, and close it."""
+    with open(descriptor, "wb") as file:
+        file.write(text.encode())
 
 
 def _replace(path: Path, text: str) -> None:
-    """Write a temporary file beside the path, then rename it."""
-    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    temporary = Path(name)
+    """Put a new file in the place of one that is there, or of none; it has all of the text before it has the name."""
+    mode = _mode(path)
+    permissions = _default_permissions() if mode is None else stat.S_IMODE(mode)
     try:
-        with open(descriptor, "w", encoding="utf-8") as file:
-            file.write(text)
-        temporary.chmod(_mode_for(path))
-        temporary.replace(path)
+        _replace_by_nameless_file(path, text, permissions, mode is None)
+    except (AttributeError, OSError):  # not Linux, or a file system that does not know such files
+        descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=TEMPORARY)
+        temporary = Path(name)
+        with _removed_on_failure(temporary):
+            _write(descriptor, text)
+            temporary.chmod(permissions)
+            temporary.replace(path)
+
+
+def _replace_by_nameless_file(path: Path, text: str, permissions: int, is_new: bool) -> None:
+    """Write a file that has no name until it is whole, so that nothing stays of it when the process is killed."""
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        with open(os.open(path.parent, os.O_WRONLY | os.O_TMPFILE, 0o600), "wb") as file:
+            file.write(text.encode())
+            file.flush()
+            os.fchmod(file.fileno(), permissions)
+            source = f"/proc/self/fd/{file.fileno()}"
+            if is_new:
+                with contextlib.suppress(FileExistsError):  # it has come meanwhile
+                    os.link(source, path, src_dir_fd=folder, follow_symlinks=True)
+                    return
+            temporary = path.with_name(f"{TEMPORARY}{os.getpid()}")  # a link does not replace another one, a name does
+            temporary.unlink(missing_ok=True)
+            with _removed_on_failure(temporary):
+                os.link(source, temporary, src_dir_fd=folder, follow_symlinks=True)
+                temporary.replace(path)
+    finally:
+        os.close(folder)
+
+
+@contextlib.contextmanager
+def _removed_on_failure(path: Path) -> Iterator[None]:
+    try:
+        yield
     except BaseException:
-        with contextlib.suppress(OSError):
-            temporary.unlink()
+        path.unlink(missing_ok=True)
         raise
 
 
-def _mode_for(path: Path) -> int:
-    """Return the permissions of the file that is there, or those of a new file."""
-    if path.exists():
-        return stat.S_IMODE(path.stat().st_mode)
+def _default_permissions() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return 0o666 & ~mask

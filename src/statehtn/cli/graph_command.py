@@ -9,7 +9,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import check_writable, emit, read_problem, write_whole
+from statehtn.cli.files import OutputFile, read_problem
+from statehtn.cli.streams import emit
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.decomposition import (
     ground_task_decomposition_graph,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
 FORMATS: Mapping[str, Callable[[nx.MultiDiGraph[str]], str]] = MappingProxyType(
-    {".graphml": to_graphml, ".dot": to_dot, ".gv": to_dot, ".svg": to_svg}
+    {"svg": to_svg, "dot": to_dot, "gv": to_dot, "graphml": to_graphml}
 )
 
 
@@ -40,17 +41,19 @@ def run_graph(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong, or something is missing for this kind of file.
         OutputError: the file cannot be written.
     """
-    suffix = Path(options.output).suffix.lower()
-    if suffix not in FORMATS:
-        raise UsageError(f"'{options.output}': expected a name that ends in {', '.join(FORMATS)}")
+    form = options.format or Path(options.output).suffix.lower().removeprefix(".")
+    if form not in FORMATS:
+        endings = ", ".join(f".{name}" for name in FORMATS)
+        raise UsageError(f"'{options.output}': expected a name that ends in {endings}, or --format beside it")
     if options.kind != "gcv-tdg" and (options.attitude != "neutral" or options.alpha is not None):
         raise UsageError(f"values for an agent are shown on the gcv-tdg, not on the {options.kind}")
     utility = utility_for(options.attitude, options.alpha)
-    check_writable(options.output)
+    output = OutputFile(options.output)
     problem = read_problem(options)
     graph = make_graph(problem, options.kind, utility)
-    write_whole(options.output, FORMATS[suffix](graph))
-    emit(f"{options.output}: {len(graph)} nodes, {graph.number_of_edges()} edges")
+    output.write(FORMATS[form](graph))
+    if not output.is_stdout:
+        emit(f"{options.output}: {len(graph)} nodes, {graph.number_of_edges()} edges")
     return ExitCode.SUCCESS
 
 

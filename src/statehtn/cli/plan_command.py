@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
-from statehtn.cli.files import OutputError, check_writable, emit, write_whole
+from statehtn.cli.files import OutputFile
 from statehtn.cli.progress import ProgressLine
+from statehtn.cli.streams import OutputError, emit, say
 from statehtn.effort import Statistics
+from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
+from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
 from statehtn.planner import no_plan, plan_files
 from statehtn.query import Query
@@ -32,9 +36,10 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         weight=options.weight,
         branch=options.branch,
     )
-    if options.output is not None:
-        check_writable(options.output)
-    problem = None
+    output = None if options.output is None else OutputFile(options.output)
+    if output and output.is_stdout and options.json:
+        raise UsageError("both --json and the plan of --output would go to standard output; leave out one of them")
+    keeper = _PlanKeeper(output)
     try:
         with ProgressLine(silent=options.quiet) as progress:
             result, problem = plan_files(
@@ -46,28 +51,63 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
                 time_limit=options.time_limit,
                 memory_limit=options.memory_limit,
                 progress=progress.callback,
+                better=keeper.keep if output and output.is_regular else None,
             )
     except KeyboardInterrupt:  # between two phases
-        result = no_plan(query, Status.INTERRUPTED, Statistics())
-    failure = None
-    if options.output is not None and problem is not None and result.plan is not None:
-        try:
-            write_whole(options.output, write_plan(result.plan, problem))
-        except OutputError as error:
-            failure = error  # the plan must not be lost: print it first
-    _print(result, options)
-    if failure is not None:
-        raise failure
+        if keeper.latest is None:
+            result, problem = no_plan(query, Status.INTERRUPTED, Statistics()), None
+        else:
+            result, problem = keeper.latest
+    keeper.finish(result, problem)
+    _print(result, options, beside=output is not None and output.is_stdout)
+    if keeper.failure is not None:
+        raise keeper.failure
     return EXIT_CODES[result.status]
 
 
-def _print(result: Result, options: argparse.Namespace) -> None:
+class _PlanKeeper:
+    """Writes plans to the file of --output; a failure waits, since what was found must be printed first."""
+
+    def __init__(self, output: OutputFile | None) -> None:
+        self.output = output
+        self.latest: tuple[Result, Problem] | None = None
+        self.written: Plan | None = None
+        self.failure: OutputError | None = None
+
+    def keep(self, result: Result, problem: Problem) -> None:
+        """Write the plan of a result, unless it stands there."""
+        self.latest = result, problem
+        if self.output is None or result.plan is None or result.plan is self.written:
+            return
+        self.failure = None
+        try:
+            self.output.write(write_plan(result.plan, problem))
+            self.written = result.plan
+        except OutputError as error:
+            self.failure = error
+
+    def finish(self, result: Result, problem: Problem | None) -> None:
+        """Write the last plan; without one, remove the file that another run has left."""
+        if problem is not None and result.plan is not None:
+            self.keep(result, problem)
+        elif self.output is not None:
+            try:
+                self.output.remove()
+            except OutputError as error:
+                self.failure = error
+
+
+def _print(result: Result, options: argparse.Namespace, beside: bool) -> None:
+    """Print the result; on standard error, for people, if it stands `beside` a plan on standard output."""
     if options.json:
         emit(json.dumps(result.to_dict(), allow_nan=False))
     elif options.quiet:
-        if result.steps:
+        if result.steps and not beside:
             emit("\n".join(str(priced.step) for priced in result.steps))
     else:
         from statehtn.cli.tables import readable_result
 
-        emit(readable_result(result))
+        if beside:
+            say(readable_result(result, sys.stderr), raw=True)
+        else:
+            emit(readable_result(result, sys.stdout), raw=True)

@@ -10,20 +10,21 @@ import threading
 import traceback
 import warnings
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from types import FrameType
 
 from statehtn.cli.arguments import parse_arguments
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import OutputError
 from statehtn.cli.plan_command import run_plan
+from statehtn.cli.streams import OutputError, reopen_closed_streams, say
 from statehtn.cli.validate_command import run_validate
 from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, UsageError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code; `arguments` are those after the program's name."""
-    with _terminate_as_interrupt(), _warnings_as_lines():
+    reopen_closed_streams()
+    with _signals_as_interrupt(), _warnings_as_lines():
         try:
             options = parse_arguments(sys.argv[1:] if arguments is None else arguments)
             return int(_run(options))
@@ -92,28 +93,39 @@ def _explain(error: BaseException) -> ExitCode:
 
 def _complain(code: ExitCode, line: str) -> ExitCode:
     """Write a line to stderr, after the traceback where STATEHTN_DEBUG asks for it."""
-    with suppress(OSError):  # nobody is left to tell
-        if os.environ.get("STATEHTN_DEBUG"):
-            traceback.print_exc()
-        print(line, file=sys.stderr, flush=True)
+    if os.environ.get("STATEHTN_DEBUG"):
+        say(traceback.format_exc())
+    say(line)
     return code
 
 
 @contextmanager
-def _terminate_as_interrupt() -> Iterator[None]:
-    """Treat SIGTERM as Ctrl-C, so that a batch system's stop ends in a result, too."""
+def _signals_as_interrupt() -> Iterator[None]:
+    """Treat SIGTERM and SIGHUP as Ctrl-C, so that a batch system's stop, or a closed terminal, ends in a result, too.
+
+    What is ignored (`nohup`) stays so. After the first signal others of its kind are ignored: a terminal that is closed
+    sends several, and the result has to be written.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
+    caught = [
+        number
+        for name in ("SIGTERM", "SIGHUP")
+        if (number := getattr(signal, name, None)) is not None and signal.getsignal(number) != signal.SIG_IGN
+    ]
 
     def interrupt(_signal: int, _frame: FrameType | None) -> None:
+        for number in caught:
+            signal.signal(number, signal.SIG_IGN)
         raise KeyboardInterrupt
 
-    previous = signal.signal(signal.SIGTERM, interrupt)
+    previous = [signal.signal(number, interrupt) for number in caught]
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, previous)
+        for number, handler in zip(caught, previous, strict=True):
+            signal.signal(number, handler)
 
 
 @contextmanager
@@ -121,8 +133,7 @@ def _warnings_as_lines() -> Iterator[None]:
     """Show warnings about the input as lines on stderr."""
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
-        with suppress(OSError):  # nobody is left to tell
-            print(f"warning: {message}", file=sys.stderr)
+        say(f"warning: {message}")
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)

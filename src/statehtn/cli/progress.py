@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import contextlib
-import shutil
 import sys
 import time
 from types import TracebackType
 
+from statehtn.cli.streams import show_progress
 from statehtn.core.search import Progress
 from statehtn.core.top_plans import TopProgress
 from statehtn.planner import ProgressCallback
 
 SECONDS_BETWEEN_LINES = 0.1
-CLEAR_LINE = "\r\x1b[K"
 
 
 class ProgressLine:
@@ -59,7 +57,4 @@ class ProgressLine:
 
     def _write(self, text: str) -> None:
         if self.visible:
-            width = shutil.get_terminal_size().columns
-            with contextlib.suppress(OSError):
-                sys.stderr.write(CLEAR_LINE + text[: max(1, width - 1)])
-                sys.stderr.flush()
+            show_progress(text)

@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import check_writable, emit, write_whole
+from statehtn.cli.files import OutputFile
+from statehtn.cli.streams import emit
 from statehtn.errors import UsageError
 from statehtn.experiments.report import read_outcomes, report_page
 
@@ -19,14 +20,15 @@ def run_report(options: argparse.Namespace) -> ExitCode:
         OutputError: the page cannot be written.
     """
     results = Path(options.results)
+    output = OutputFile(options.output)
     for file in (results, results.with_suffix(".jsonl")):
-        if Path(options.output).resolve() == file.resolve():
+        if output.path == file.resolve():
             raise UsageError(
                 f"--output '{options.output}' would replace the results; choose another name, such as *.html"
             )
-    check_writable(options.output)
     outcomes = read_outcomes(options.results)
     page = report_page(outcomes, results.name)
-    write_whole(options.output, page)
-    emit(f"{options.output}: {len(outcomes)} runs, {len(page.encode()) / 1000:.0f} kB")
+    output.write(page)
+    if not output.is_stdout:
+        emit(f"{options.output}: {len(outcomes)} runs, {len(page.encode()) / 1000:.0f} kB")
     return ExitCode.SUCCESS

@@ -7,7 +7,7 @@ import math
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
 from rich import box
 from rich.console import Console
@@ -49,13 +49,13 @@ def number(value: float | None) -> str:
     return "" if value is None else f"{value:.10g}"
 
 
-def readable_result(result: Result) -> str:
-    """Return the plan with its price, what was proven, and the effort."""
+def readable_result(result: Result, stream: TextIO) -> str:
+    """Return the plan with its price, what was proven, and the effort, in the form for a stream."""
     parts: list[Table] = []
     if result.plan is not None:
         parts.append(_steps_table(result))
     parts.append(_summary(_summary_rows(result), STYLES.get(result.status, "bold red")))
-    return _render(parts)
+    return _render(parts, stream=stream)
 
 
 def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
@@ -269,9 +269,12 @@ def _summary(rows: Iterable[tuple[str, str]], first_style: str) -> Table:
     return table
 
 
-def _render(tables: Iterable[Table], *, wrap: bool = True) -> str:
-    """Render for standard output: coloured and, unless told not to, wrapped on a terminal; plain and wide elsewhere."""
-    terminal = sys.stdout.isatty()
+def _render(tables: Iterable[Table], *, wrap: bool = True, stream: TextIO | None = None) -> str:
+    """Render for a stream: coloured and, unless told not to, wrapped on a terminal; plain and wide elsewhere.
+
+    The stream is standard output if none is given.
+    """
+    terminal = (stream or sys.stdout).isatty()
     console = Console(
         file=io.StringIO(),
         force_terminal=terminal,

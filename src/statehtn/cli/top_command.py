@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 from pathlib import Path
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
-from statehtn.cli.files import OutputError, check_writable, emit, write_whole
+from statehtn.cli.files import STDOUT, OutputFile
 from statehtn.cli.progress import ProgressLine
+from statehtn.cli.streams import OutputError, emit
 from statehtn.effort import Statistics
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
@@ -66,16 +68,19 @@ def _check_folder(name: str) -> None:
 
     Raises:
         UsageError: they cannot, or would lie among those of another run.
+        OutputError: the system does not take this name.
     """
+    if name == STDOUT:
+        raise UsageError("--output of 'top' is a folder with a file for each plan; --quiet prints each plan on a line")
     folder = Path(name)
-    if not folder.is_dir():
-        check_writable(name)
+    if not os.path.isdir(name):  # noqa: PTH112 - Path.is_dir fails where a name is too long
+        OutputFile(name)
         if folder.exists():
             raise UsageError(f"cannot write plans into '{name}': it is not a directory")
         return
     if old := min(folder.glob("plan-*.txt"), default=None):
         raise UsageError(f"'{name}' holds plans already ('{old.name}'); name another folder, or remove them")
-    check_writable(str(folder / "plan-1.txt"))
+    OutputFile(str(folder / "plan-1.txt"))
 
 
 def _write(result: TopPlans, problem: Problem, folder: Path) -> None:
@@ -90,7 +95,8 @@ def _write(result: TopPlans, problem: Problem, folder: Path) -> None:
         raise OutputError(f"cannot write '{folder}': {error.strerror}") from error
     digits = len(str(len(result)))
     for ranked in result:
-        write_whole(str(folder / f"plan-{ranked.rank:0{digits}}.txt"), write_plan(ranked.plan, problem))
+        file = OutputFile(str(folder / f"plan-{ranked.rank:0{digits}}.txt"))
+        file.write(write_plan(ranked.plan, problem))
 
 
 def _print(result: TopPlans, options: argparse.Namespace) -> None:
@@ -102,4 +108,4 @@ def _print(result: TopPlans, options: argparse.Namespace) -> None:
     else:
         from statehtn.cli.tables import readable_top_plans
 
-        emit(readable_top_plans(result))
+        emit(readable_top_plans(result), raw=True)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import emit, read_problem
+from statehtn.cli.files import read_problem
+from statehtn.cli.streams import emit
 from statehtn.errors import InputError
 from statehtn.hddl.plan_format import read_plan
 from statehtn.validate import validate
@@ -22,7 +23,7 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     problem = read_problem(options)
     plan = read_plan(_read_text(options.plan), problem, options.plan)
     validation = validate(problem, plan)
-    emit(readable_validation(validation, plan.steps))
+    emit(readable_validation(validation, plan.steps), raw=True)
     return ExitCode.SUCCESS if validation.valid else ExitCode.INVALID_PLAN
 
 
