@@ -261,8 +261,8 @@ def test_large_problems_are_read_fast(kind: str) -> None:
     statements = "\n".join(form.format(i, j) for i in range(size) for j in range(size))
     places = " ".join(f"place{i}" for i in range(size))
     text = f"(define (problem p) (:objects {places} - place) (:init {statements}) (:htn :subtasks ()))"
-    start = time.perf_counter()
+    start = time.process_time()
     problem = read(domain, text)
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     assert len(problem.initial_state) + len(problem.function_values) == size * size
-    assert seconds < 4.0 * len(text) / 4e6 + 0.5  # twice what is promised, for slow machines
+    assert seconds < 4.0 * len(text) / 4e6 + 0.5  # of CPU: twice what is promised, for slow machines
