@@ -26,7 +26,7 @@ class Evaluator {
 public:
     Evaluator(const relax::GroundProblem& problem, const std::vector<relax::Cost>& costs, relax::HeuristicKind kind)
         : problem_(problem),
-          bounds_(relax::tdg_bound(problem, costs)),
+          bounds_(relax::tdg_bound(problem, costs, limits_)),
           heuristic_(relax::make_heuristic(kind, problem, costs, limits_)) {}
 
     std::optional<relax::Cost> evaluate(const std::vector<relax::FactId>& facts,

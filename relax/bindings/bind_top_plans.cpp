@@ -34,7 +34,7 @@ relax::TopPlansResult top_plans(const relax::GroundProblem& problem, std::vector
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::TopPlans(problem, std::move(costs), std::move(labels), options, limits, statistics).run();
+    return relax::top_plans(problem, std::move(costs), std::move(labels), options, limits, statistics);
 }
 
 }  // namespace

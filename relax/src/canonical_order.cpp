@@ -21,6 +21,7 @@ std::span<const std::uint32_t> CanonicalOrder::of(const OrderedTasks& network) {
         for (; end < order_.size() && colours_[order_[end]] == colours_[here] &&
                predecessor_count_[order_[end]] == predecessor_count_[here];
              ++end) {
+            limits_.stop_if_reached();
             all_twins = all_twins && are_twins(network, here, order_[end]);
         }
         if (all_twins) {
@@ -61,6 +62,7 @@ void CanonicalOrder::refine(const OrderedTasks& network) {
         from_predecessors_.assign(count, 0);
         from_successors_.assign(count, 0);
         for (std::size_t later = 0; later < count; ++later) {
+            limits_.stop_if_reached();
             for_each_bit(network.row(later), [&](std::size_t earlier) {
                 from_predecessors_[later] += mix(colours_[earlier]);
                 from_successors_[earlier] += mix(colours_[later]);

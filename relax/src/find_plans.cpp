@@ -35,10 +35,10 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), progression_options(options)),
+      progression_(problem, costs_, tdg_bound(problem, costs_, limits), progression_options(options), limits),
       nodes_(progression_.networks()) {
     if (options.check_endings && !progression_.networks().are_totally_ordered()) {
-        ending_.emplace(problem);
+        ending_.emplace(problem, limits);
     }
     const bool asks_always = !options.ask_adaptively || !is_admissible(options.heuristic);
     heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
@@ -64,9 +64,10 @@ bool FindPlans::advance(std::uint64_t work) {
             start();
         }
         stop_ = search(work);
+    } catch (const Stopped& stopped) {
+        stop_ = stopped.reason;
     } catch (const std::bad_alloc&) {
         stop_ = StopReason::MemoryLimit;
-        is_torn_ = true;
     }
     is_done_ = is_done_ || stop_.has_value();
     return is_done_;
@@ -93,6 +94,7 @@ SearchResult FindPlans::result() {
     if (!problem_.solvable) {
         return result;
     }
+    const Limits::Suspension suspension(limits_);
     const Cost bound = proven();
     result.is_stopped = stop_.has_value();
     if (goal_) {
@@ -138,15 +140,14 @@ std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
         if (is_exact()) {
             statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
         }
+        is_torn_ = true;
         const auto node = follow(entry.node);
-        if (!node) {
-            continue;
-        }
-        if (priority(*node) > entry.priority) {
+        if (node && priority(*node) > entry.priority) {
             push(*node);
-        } else if (evaluate(*node, entry.priority)) {
+        } else if (node && evaluate(*node, entry.priority)) {
             expand(*node);
         }
+        is_torn_ = false;
     }
     is_done_ = true;
     return std::nullopt;
@@ -178,7 +179,7 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
             continue;
         }
         const std::uint64_t cuts_before = heuristic->rounds();
-        const auto h = heuristic->evaluate(progression_.view(node.state, node.network));
+        const auto h = ask(heuristic, id);
         ++statistics_.evaluated;
         statistics_.cuts += heuristic->rounds() - cuts_before;
         heuristic.note_answer(!h || *h > node.h, work_of_a_node(heuristic));
@@ -201,6 +202,17 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
         }
     }
     return true;
+}
+
+// A node whose evaluation is cut short stays open.
+std::optional<Cost> FindPlans::ask(AdaptiveHeuristic& heuristic, NodeId id) {
+    try {
+        return heuristic->evaluate(progression_.view(nodes_[id].state, nodes_[id].network));
+    } catch (const Stopped&) {
+        push(id);
+        is_torn_ = false;
+        throw;
+    }
 }
 
 bool FindPlans::can_end(const SearchNode& node) {

@@ -26,7 +26,7 @@ GreedySearch::GreedySearch(const GroundProblem& problem, std::vector<Cost> costs
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), options),
+      progression_(problem, costs_, tdg_bound(problem, costs_, limits), options, limits),
       heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)),
       nodes_(progression_.networks()),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
@@ -39,9 +39,12 @@ SearchResult GreedySearch::run() {
     std::optional<StopReason> stop;
     try {
         stop = search();
+    } catch (const Stopped& stopped) {
+        stop = stopped.reason;
     } catch (const std::bad_alloc&) {
         stop = StopReason::MemoryLimit;
     }
+    const Limits::Suspension suspension(limits_);
     // All that is proven is what the root's bound says.
     Cost proven = progression_.networks().bound(progression_.initial_network());
     result.is_stopped = stop.has_value();
@@ -110,6 +113,7 @@ NodeId GreedySearch::pop() {
 // are then in `successors_`; nothing where the walk ends at a dead end, at a node that is known, or at a goal.
 std::optional<NodeId> GreedySearch::follow(NodeId node) {
     for (std::uint32_t steps = 0;; ++steps) {
+        limits_.stop_if_reached();
         nodes_[node].is_expanded = true;
         ++statistics_.expanded;
         progression_.expand(nodes_[node].state, nodes_[node].network, successors_);

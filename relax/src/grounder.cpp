@@ -5,7 +5,6 @@
 
 #include "grounder_assembly.hpp"
 #include "grounder_pruning.hpp"
-#include "grounder_stop.hpp"
 
 namespace relax {
 

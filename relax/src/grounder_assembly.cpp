@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "grounder_composition.hpp"
-#include "grounder_stop.hpp"
 
 namespace relax::grounding {
 
@@ -42,7 +41,7 @@ private:
     void for_each_living_node(std::uint32_t task, Visit visit) {
         for (NodeId node = remains_.graph.task_begin[task]; node < remains_.graph.task_begin[task + 1]; ++node) {
             if (remains_.graph.is_node_alive[node]) {
-                check(remains_.limits);
+                remains_.limits.stop_if_reached();
                 visit(node);
             }
         }
@@ -149,7 +148,7 @@ private:
         problem_.method_part_begin.push_back(0);
         for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
             if (graph.is_method_alive[method] && composition_->is_kept(graph.method_task[method])) {
-                check(remains_.limits);
+                remains_.limits.stop_if_reached();
                 problem_.method_task.push_back(*task_of_node_[graph.method_task[method]]);
                 write_network(composition_->compose(method));
             }

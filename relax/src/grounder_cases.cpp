@@ -4,8 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include "grounder_stop.hpp"
-
 namespace relax::grounding {
 
 namespace {
@@ -74,7 +72,7 @@ public:
             const NormalAction normal = normal_action(knowledge_.problem.actions[action]);
             const TupleId count = knowledge_.relations[knowledge_.task_relation(action)].size();
             for (TupleId instance = 0; instance < count; ++instance) {
-                check(limits_);
+                limits_.stop_if_reached();
                 add_instance(action, normal, instance);
             }
         }

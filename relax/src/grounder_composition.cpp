@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "grounder_stop.hpp"
-
 namespace relax::grounding {
 
 namespace {
@@ -76,7 +74,7 @@ void Composition::drop_equal_methods(Limits& limits) {
         if (!graph_.is_node_alive[node]) {
             continue;
         }
-        check(limits);
+        limits.stop_if_reached();
         contents.clear();
         const auto [first, end] = graph_.methods_of[node - graph_.action_node_count];
         for (MethodInstanceId method = first; method < end; ++method) {
@@ -137,7 +135,7 @@ void Composition::choose_replaced(Limits& limits) {
     // Tasks of a single method cannot contain each other, so that a depth-first search ends.
     std::vector<NodeId> stack;
     for (NodeId root = graph_.action_node_count; root < nodes; ++root) {
-        check(limits);
+        limits.stop_if_reached();
         stack.push_back(root);
         while (!stack.empty()) {
             const NodeId node = stack.back();

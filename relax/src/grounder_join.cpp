@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "grounder_stop.hpp"
-
 namespace relax::grounding {
 
 void Joiner::run(const Rule& rule, const JoinPlan& plan, std::optional<TupleId> given) {
@@ -94,7 +92,7 @@ void Joiner::lookup(const JoinStep& step, std::size_t next) {
         key_.push_back(object_of(term, bindings_));
     }
     for (auto tuple = relation.first(step.index, key_); tuple && !is_done_; tuple = relation.next(step.index, *tuple)) {
-        check(limits_);
+        limits_.stop_if_reached();
         if (!is_excluded(step, *tuple) && fits(step, relation[*tuple])) {
             join(next);
         }
@@ -106,7 +104,7 @@ void Joiner::enumerate(const JoinStep& step, std::size_t next) {
         if (is_done_) {
             return;
         }
-        check(limits_);
+        limits_.stop_if_reached();
         bindings_[step.slot] = object;
         join(next);
     }
@@ -152,7 +150,7 @@ void JoinEngine::run() {
         for (RelationId id = 0; id < knowledge_.relations.size(); ++id) {
             Relation& relation = knowledge_.relations[id];
             while (relation.visible_count() < relation.size()) {
-                check(limits_);
+                limits_.stop_if_reached();
                 changed = true;
                 const TupleId tuple = relation.visible_count();
                 relation.show_next();

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "grounder_stop.hpp"
-
 namespace relax::grounding {
 
 namespace {
@@ -49,7 +47,7 @@ public:
             }
         }
         while (!pending_.empty()) {
-            check(limits);
+            limits.stop_if_reached();
             const Literal literal = pending_.back();
             pending_.pop_back();
             for (std::uint32_t at = begin_[literal]; at < begin_[literal + 1]; ++at) {

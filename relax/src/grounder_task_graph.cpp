@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "grounder_method_rule.hpp"
-#include "grounder_stop.hpp"
 
 namespace relax::grounding {
 
@@ -38,7 +37,7 @@ public:
             pending_.pop_back();
             const auto first = static_cast<MethodInstanceId>(graph_.method_task.size());
             for (const std::uint32_t method : methods_of_task_[task - knowledge_.problem.actions.size()]) {
-                check(limits_);
+                limits_.stop_if_reached();
                 task_node_ = node;
                 joiner_.run(rules_[method], plans_[method], node - graph_.task_begin[task]);
             }
@@ -181,7 +180,7 @@ void prune_bottom_up(TaskGraph& graph, Limits& limits) {
         reach(action);
     }
     while (!pending.empty()) {
-        check(limits);
+        limits.stop_if_reached();
         const NodeId node = pending.back();
         pending.pop_back();
         for (std::uint32_t at = begin[node]; at < begin[node + 1]; ++at) {
@@ -208,7 +207,7 @@ void prune_top_down(TaskGraph& graph, Limits& limits) {
     };
     reach(graph.initial);
     while (!pending.empty()) {
-        check(limits);
+        limits.stop_if_reached();
         const NodeId node = pending.back();
         pending.pop_back();
         if (node < graph.action_node_count) {

@@ -29,7 +29,7 @@ class PricedHMax {
 public:
     static constexpr bool kReadsOperators = true;
 
-    PricedHMax(const RelaxedModel& model, Limits& /*limits*/) : model_(model), hmax_(model) {}
+    PricedHMax(const RelaxedModel& model, Limits& limits) : model_(model), hmax_(model, limits) {}
     std::optional<Cost> run(const RelaxedTask& task) { return hmax_.run(task, model_.owner_cost); }
     std::uint64_t work() const { return hmax_.work(); }
 
@@ -45,7 +45,8 @@ template <typename ClassicalHeuristic>
 class Slack final : public Heuristic {
 public:
     Slack(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
-        : slack_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, costs))), limits) {}
+        : slack_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, costs, limits)), limits),
+                 limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = slack_.evaluate(node);
@@ -76,7 +77,7 @@ class Additive : private RelaxedPlan {
 public:
     using RelaxedPlan::kReadsOperators;
 
-    Additive(const RelaxedModel& model, Limits& /*limits*/) : RelaxedPlan(model) {}
+    Additive(const RelaxedModel& model, Limits& limits) : RelaxedPlan(model, limits) {}
     std::optional<Cost> run(const RelaxedTask& task) { return add(task); }
 };
 
@@ -85,7 +86,7 @@ public:
     using RelaxedPlan::kReadsOperators;
     using RelaxedPlan::uses;
 
-    Ff(const RelaxedModel& model, Limits& /*limits*/) : RelaxedPlan(model) {}
+    Ff(const RelaxedModel& model, Limits& limits) : RelaxedPlan(model, limits) {}
     std::optional<Cost> run(const RelaxedTask& task) { return ff(task); }
 };
 
@@ -99,17 +100,17 @@ std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProble
         case HeuristicKind::Tdg:
             return std::make_unique<TdgBound>();
         case HeuristicKind::HMax:
-            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, costs), limits);
+            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, costs, limits), limits);
         case HeuristicKind::LmCut:
-            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, costs), limits);
+            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, costs, limits), limits);
         case HeuristicKind::Potential:
             return std::make_unique<Slack<LmCut>>(problem, costs, limits);
         case HeuristicKind::PotentialHMax:
             return std::make_unique<Slack<PricedHMax>>(problem, costs, limits);
         case HeuristicKind::Add:
-            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, costs), limits);
+            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, costs, limits), limits);
         case HeuristicKind::Ff:
-            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, costs), limits);
+            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, costs, limits), limits);
     }
     return nullptr;
 }

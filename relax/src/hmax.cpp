@@ -5,8 +5,10 @@
 
 namespace relax {
 
-HMax::HMax(const RelaxedModel& model) : model_(model), facts_(model.fact_count(), {kInfinite, 0, false}) {
+HMax::HMax(const RelaxedModel& model, Limits& limits)
+    : model_(model), limits_(limits), facts_(model.fact_count(), {kInfinite, 0, false}) {
     for (OperatorId op = 0; op < model.operator_count(); ++op) {
+        limits.stop_if_reached();
         const auto row = model.preconditions[op];
         const bool wakes_up = !model.is_decomposition() ||
                               std::ranges::any_of(row, [&](RelaxedFact fact) { return model.starts_action(fact); });
@@ -28,9 +30,11 @@ std::optional<Cost> HMax::run(const RelaxedTask& task, std::span<const Cost> cos
     }
     looks_ += task.operators().size();
     for (const OperatorId op : task.operators()) {
+        limits_.stop_if_reached();
         wake(task, op, model_.preconditions[op].front(), 0, costs);
     }
     while (!is_empty()) {
+        limits_.stop_if_reached();
         const auto [cost_of_it, fact] = pop();
         if (facts_[fact].cost != cost_of_it || facts_[fact].is_settled) {
             continue;
@@ -75,6 +79,7 @@ Cost HMax::lower(const RelaxedTask& task, std::span<const OperatorId> operators,
         }
     }
     while (!is_empty()) {
+        limits_.stop_if_reached();
         const auto [cost_of_it, fact] = pop();
         if (facts_[fact].cost != cost_of_it) {
             continue;

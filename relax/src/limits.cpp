@@ -1,11 +1,10 @@
 #include "relax/limits.hpp"
 
-#include <algorithm>
-
 #if defined(__linux__)
 #include <unistd.h>
 
 #include <cstdio>
+#include <ctime>
 #elif defined(__APPLE__)
 #include <mach/mach.h>
 #endif
@@ -14,32 +13,41 @@ namespace relax {
 
 namespace {
 
-constexpr auto kLookInterval = std::chrono::milliseconds(2);
+constexpr auto kLookInterval = std::chrono::milliseconds(4);
 constexpr auto kPollInterval = std::chrono::milliseconds(50);
-constexpr std::uint32_t kMostCallsUntilLook = 1U << 14;
 // The part of the memory limit that is left for what grows between two looks.
 constexpr std::size_t kMemoryReserve = 20;
+
+// The time to some milliseconds, in a fraction of what the exact time costs.
+Limits::Clock::time_point coarse_now() {
+#if defined(__linux__)
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+    return Limits::Clock::time_point(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
+#else
+    return Limits::Clock::now();
+#endif
+}
 
 }  // namespace
 
 std::optional<StopReason> Limits::look() {
-    const auto now = Clock::now();
-    // Aim at one look every few milliseconds, whatever a call's worth of work costs.
-    if (last_look_ != Clock::time_point{} && now - last_look_ < kLookInterval) {
-        calls_until_look_ = std::min(calls_until_look_ * 2, kMostCallsUntilLook);
-    } else if (last_look_ != Clock::time_point{} && now - last_look_ > 4 * kLookInterval) {
-        calls_until_look_ = std::max(calls_until_look_ / 2, 1U);
+    if (suspensions_ > 0) {
+        return std::nullopt;
     }
-    calls_ = 0;
+    const auto now = coarse_now();
+    if (reason_ || now - last_look_ < kLookInterval) {
+        return reason_;
+    }
     last_look_ = now;
     if (deadline && now >= *deadline) {
         reason_ = StopReason::TimeLimit;
+    } else if (memory_bytes && resident_bytes() > *memory_bytes - *memory_bytes / kMemoryReserve) {
+        reason_ = StopReason::MemoryLimit;
     } else if (now - last_poll_ >= kPollInterval) {
         last_poll_ = now;
         if (poll && poll()) {
             reason_ = StopReason::Interrupted;
-        } else if (memory_bytes && resident_bytes() > *memory_bytes - *memory_bytes / kMemoryReserve) {
-            reason_ = StopReason::MemoryLimit;
         }
     }
     return reason_;

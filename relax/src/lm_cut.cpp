@@ -7,7 +7,7 @@ namespace relax {
 LmCut::LmCut(const RelaxedModel& model, Limits& limits)
     : model_(model),
       limits_(limits),
-      hmax_(model),
+      hmax_(model, limits),
       costs_(model.owner_cost),
       marks_(model.fact_count(), {0, Zone::Unknown}),
       cut_round_(model.owner_cost.size(), 0) {}
@@ -25,26 +25,35 @@ std::optional<Cost> LmCut::run(const RelaxedTask& task) {
         return std::nullopt;
     }
     Cost total = 0;
-    Cost left = *first;
-    while (left > 0 && !limits_.check()) {
-        ++rounds_;
-        mark_goal_zone(task);
-        find_cut(task, left);
-        Cost least = HMax::kInfinite;
-        for (const OwnerId owner : cut_) {
-            least = std::min(least, costs_[owner]);
+    try {
+        for (Cost left = *first; left > 0;) {
+            limits_.stop_if_reached();
+            ++rounds_;
+            mark_goal_zone(task);
+            find_cut(task, left);
+            total += take_off_cut();
+            left = hmax_.lower(task, changed_, costs_);
         }
-        total += least;
-        changed_.clear();
-        for (const OwnerId owner : cut_) {
-            costs_[owner] -= least;
-            lowered_.push_back(owner);
-            const auto row = model_.owner_operators[owner];
-            changed_.insert(changed_.end(), row.begin(), row.end());
-        }
-        left = hmax_.lower(task, changed_, costs_);
+    } catch (const Stopped&) {
+        return total;  // the cuts so far are a bound all the same
     }
     return total;
+}
+
+// Take the least cost among the cut's owners off all of them, and return it.
+Cost LmCut::take_off_cut() {
+    Cost least = HMax::kInfinite;
+    for (const OwnerId owner : cut_) {
+        least = std::min(least, costs_[owner]);
+    }
+    changed_.clear();
+    for (const OwnerId owner : cut_) {
+        costs_[owner] -= least;
+        lowered_.push_back(owner);
+        const auto row = model_.owner_operators[owner];
+        changed_.insert(changed_.end(), row.begin(), row.end());
+    }
+    return least;
 }
 
 // The goal zone: the dearest goal, and all supporters of free operators that achieve a fact of the zone.
@@ -55,6 +64,7 @@ void LmCut::mark_goal_zone(const RelaxedTask& task) {
     while (!pending_.empty()) {
         const RelaxedFact fact = pending_.back();
         pending_.pop_back();
+        limits_.stop_if_reached();
         task.for_each_achiever(fact, [&](OperatorId op) {
             ++looks_;
             if (!hmax_.is_reached(op)) {
@@ -94,6 +104,7 @@ bool LmCut::is_reached_outside(const RelaxedTask& task, RelaxedFact fact, Cost g
     while (!is_reached && !pending_.empty()) {
         const RelaxedFact next = pending_.back();
         pending_.pop_back();
+        limits_.stop_if_reached();
         task.for_each_achiever(next, [&](OperatorId op) {
             ++looks_;
             if (is_reached || !hmax_.is_reached(op)) {

@@ -18,7 +18,10 @@ void put(std::vector<Literal>& sorted, Literal literal) {
 
 }  // namespace
 
-MacroActions::MacroActions(const GroundProblem& problem) : problem_(problem), mutexes_(problem) { intern({}); }
+MacroActions::MacroActions(const GroundProblem& problem, Limits& limits)
+    : problem_(problem), mutexes_(problem, limits) {
+    intern({});
+}
 
 bool MacroActions::fits(ActionId action) const {
     for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {

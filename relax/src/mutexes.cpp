@@ -14,7 +14,7 @@ constexpr std::uint64_t kMostWork = 20'000'000;  // in words looked at
 
 }  // namespace
 
-Mutexes::Mutexes(const GroundProblem& problem)
+Mutexes::Mutexes(const GroundProblem& problem, Limits& limits)
     : problem_(problem),
       words_((problem.fact_count() + 63) / 64),
       changed_(problem.fact_count(), 0),
@@ -31,6 +31,7 @@ Mutexes::Mutexes(const GroundProblem& problem)
         set_fact(initial, fact);
     }
     for (const FactId fact : problem.initial_state) {
+        limits.stop_if_reached();
         put_together(fact, initial);
     }
     std::vector<std::uint32_t> executed(problem.action_count(), 0);  // by ActionId: when
@@ -38,6 +39,7 @@ Mutexes::Mutexes(const GroundProblem& problem)
     for (bool has_changed = true; has_changed;) {
         has_changed = false;
         for (ActionId action = 0; action < problem.action_count(); ++action) {
+            limits.stop_if_reached();
             if (!has_news(action, executed[action])) {
                 continue;
             }

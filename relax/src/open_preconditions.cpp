@@ -2,8 +2,8 @@
 
 namespace relax {
 
-OpenPreconditions::OpenPreconditions(const GroundProblem& problem)
-    : initial_state_(StateTransition(problem).initial_state()), profiles_(problem) {}
+OpenPreconditions::OpenPreconditions(const GroundProblem& problem, Limits& limits)
+    : limits_(limits), initial_state_(StateTransition(problem).initial_state()), profiles_(problem, limits) {}
 
 bool OpenPreconditions::can_be_met(const OrderedTasks& network) {
     occurring_.clear();
@@ -22,6 +22,7 @@ bool OpenPreconditions::can_be_met(const OrderedTasks& network) {
 }
 
 bool OpenPreconditions::can_be_met(const OrderedTasks& network, std::size_t task, Literal literal) {
+    limits_.stop_if_reached();
     threats_.assign(network.words, 0);
     bool is_threatened = false;
     for (std::size_t earlier = 0; earlier < network.tasks.size(); ++earlier) {

@@ -16,8 +16,9 @@ std::uint64_t hash_step(ComponentId component, std::uint32_t index, MethodId met
 
 }  // namespace
 
-PartiallyOrderedNetworks::PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds)
-    : problem_(problem), components_(std::move(task_bounds)) {}
+PartiallyOrderedNetworks::PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+                                                   Limits& limits)
+    : problem_(problem), limits_(limits), components_(std::move(task_bounds), limits) {}
 
 NetworkId PartiallyOrderedNetworks::initial() {
     draft_.reset(1);
@@ -174,6 +175,7 @@ void PartiallyOrderedNetworks::split(std::vector<Part>& parts) {
         if (root(leader) != leader) {
             continue;
         }
+        limits_.stop_if_reached();
         members.clear();
         for (std::uint32_t index = 0; index < count; ++index) {
             if (root(index) == leader) {

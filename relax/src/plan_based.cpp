@@ -25,8 +25,8 @@ std::vector<bool> find_choices(const GroundProblem& problem) {
 
 // By TaskId: what a task adds to f; of a compound one nothing where the heuristic is blind.
 std::vector<Cost> make_bounds(const GroundProblem& problem, std::span<const Cost> costs,
-                              const std::vector<bool>& is_choice, HeuristicKind heuristic) {
-    std::vector<Cost> bounds = tdg_bound(problem, costs);
+                              const std::vector<bool>& is_choice, HeuristicKind heuristic, Limits& limits) {
+    std::vector<Cost> bounds = tdg_bound(problem, costs, limits);
     for (auto task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
         if (heuristic == HeuristicKind::Blind && !is_choice[task]) {
             bounds[task] = 0;
@@ -45,10 +45,10 @@ PlanBased::PlanBased(const GroundProblem& problem, std::vector<Cost> costs, cons
       limits_(limits),
       statistics_(statistics),
       is_choice_(find_choices(problem)),
-      task_bounds_(make_bounds(problem, costs_, is_choice_, options.heuristic)),
-      progression_(problem, costs_, task_bounds_, options),
+      task_bounds_(make_bounds(problem, costs_, is_choice_, options.heuristic, limits)),
+      progression_(problem, costs_, task_bounds_, options, limits),
       linearisation_(progression_, limits),
-      open_preconditions_(problem) {}
+      open_preconditions_(problem, limits) {}
 
 SearchResult PlanBased::run() {
     SearchResult result;
@@ -58,9 +58,12 @@ SearchResult PlanBased::run() {
     std::optional<StopReason> stop;
     try {
         stop = search();
+    } catch (const Stopped& stopped) {
+        stop = stopped.reason;
     } catch (const std::bad_alloc&) {
         stop = StopReason::MemoryLimit;
     }
+    const Limits::Suspension suspension(limits_);
     result.is_stopped = stop.has_value();
     if (solution_) {
         trace(result);
@@ -124,6 +127,7 @@ void PlanBased::expand(NodeId node) {
     const NetworkId network = nodes_[node].network;
     for (const Occurrence& occurrence : std::vector(compounds_)) {
         for (const MethodId method : problem_.methods_of(occurrence.task)) {
+            limits_.stop_if_reached();
             generate(node, progression_.networks().decompose(network, occurrence.index, method),
                      {occurrence.index, method});
         }

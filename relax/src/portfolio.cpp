@@ -1,6 +1,7 @@
 #include "relax/portfolio.hpp"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "relax/tdg_bound.hpp"
@@ -49,7 +50,16 @@ bool Portfolio::take_turn(Member& member, std::uint64_t work) {
         options.algorithm = SearchAlgorithm::AStar;
         options.heuristic = member.heuristic;
         options.more_heuristics = member.more_heuristics;
-        member.search = std::make_unique<FindPlans>(problem_, costs_, options, limits_, member.statistics);
+        try {
+            member.search = std::make_unique<FindPlans>(problem_, costs_, options, limits_, member.statistics);
+        } catch (const Stopped& stopped) {
+            stop_ = stopped.reason;
+        } catch (const std::bad_alloc&) {
+            stop_ = StopReason::MemoryLimit;
+        }
+        if (stop_) {
+            return true;
+        }
         share_bounds();
     }
     const bool is_done = member.search->advance(work);
@@ -97,11 +107,15 @@ void Portfolio::share_bounds() {
 }
 
 // Put together what is known when the last search has ended: its result, with the best plan and bound of all.
-SearchResult Portfolio::gather(Member& last) {
+SearchResult Portfolio::gather(Member& ended) {
+    Member& last = ended.search ? ended : members_.front();
+    if (!last.search) {
+        throw Stopped{*stop_};
+    }
     SearchResult result = last.search->result();
     Cost bound =
         result.statistics.lower_bound.value_or(result.status == SearchStatus::Unsolvable ? kNoDecomposition : 0);
-    bool is_stopped = result.is_stopped;
+    const bool is_stopped = result.is_stopped || stop_;
     for (Member& member : members_) {
         if (!member.search || &member == &last) {
             continue;
@@ -119,6 +133,7 @@ SearchResult Portfolio::gather(Member& last) {
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
     } else if (is_stopped) {
         statistics_.lower_bound = bound;
+        result.status = stop_ ? status_of(*stop_) : result.status;
     } else {
         statistics_.lower_bound.reset();
     }

@@ -30,22 +30,23 @@ std::optional<ActionId> first_action(const GroundProblem& problem, MethodId meth
 }  // namespace
 
 Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                         const ProgressionOptions& options)
+                         const ProgressionOptions& options, Limits& limits)
     : problem_(problem),
       costs_(std::move(costs)),
       transition_(problem),
       states_(transition_.word_count()),
-      networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros)),
+      networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros, limits)),
       branching_(problem),
       next_(transition_.word_count()) {
     if (options.use_stubborn_sets) {
-        stubborn_set_.emplace(problem);
+        stubborn_set_.emplace(problem, limits);
     }
     if (options.forget_facts) {
-        relevant_facts_.emplace(problem);
+        relevant_facts_.emplace(problem, limits);
     }
     if (options.skip_dead_methods) {
         for (MethodId method = 0; method < problem.method_count(); ++method) {
+            limits.stop_if_reached();
             first_action_.push_back(first_action(problem, method));
         }
     }

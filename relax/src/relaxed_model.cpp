@@ -8,18 +8,22 @@ namespace {
 
 // Turn "row -> values" round: for each value the rows that hold it.
 template <typename Value>
-Rows<std::uint32_t> invert(const Rows<Value>& rows, std::size_t value_count) {
-    std::vector<std::vector<std::uint32_t>> lists(value_count);
+Rows<std::uint32_t> invert(const Rows<Value>& rows, std::size_t value_count, Limits& limits) {
+    std::vector<std::uint32_t> counts(value_count, 0);
     for (std::size_t row = 0; row < rows.size(); ++row) {
+        limits.stop_if_reached();
         for (const Value value : rows[row]) {
-            lists[value].push_back(static_cast<std::uint32_t>(row));
+            ++counts[value];
         }
     }
-    Rows<std::uint32_t> result;
-    for (const auto& list : lists) {
-        result.add_row(list);
-    }
-    return result;
+    return Rows<std::uint32_t>::filled(counts, [&](const auto& put) {
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+            limits.stop_if_reached();
+            for (const Value value : rows[row]) {
+                put(value, static_cast<std::uint32_t>(row));
+            }
+        }
+    });
 }
 
 template <typename Value>
@@ -30,10 +34,11 @@ void sort_unique(std::vector<Value>& values) {
 
 }  // namespace
 
-RelaxedModel RelaxedModel::composition(const GroundProblem& problem, std::span<const Cost> costs) {
-    RelaxedModel model(problem, costs);
+RelaxedModel RelaxedModel::composition(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits) {
+    RelaxedModel model(problem, costs, limits);
     model.method_operator.resize(problem.method_count());
     for (ActionId action = 0; action < problem.action_count(); ++action) {
+        limits.stop_if_reached();
         const auto first = static_cast<OperatorId>(model.operator_count());
         model.add_action(problem, action, action);
         for (OperatorId op = first; op < model.operator_count(); ++op) {
@@ -45,38 +50,43 @@ RelaxedModel RelaxedModel::composition(const GroundProblem& problem, std::span<c
     }
     for (auto task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
         for (const MethodId method : problem.methods_of(task)) {
+            limits.stop_if_reached();
             model.add_composition(problem, method);
         }
         model.task_operators.finish_row();
     }
-    model.index();
+    model.index(limits);
     return model;
 }
 
-RelaxedModel RelaxedModel::decomposition(const GroundProblem& problem, std::span<const Cost> costs) {
-    RelaxedModel model(problem, costs);
+RelaxedModel RelaxedModel::decomposition(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits) {
+    RelaxedModel model(problem, costs, limits);
     model.may_start_begin_ = static_cast<RelaxedFact>(model.fact_count_);
     model.action_starts_ = static_cast<RelaxedFact>(problem.action_count());
     model.fact_count_ += problem.task_count();
     for (ActionId action = 0; action < problem.action_count(); ++action) {
+        limits.stop_if_reached();
         model.add_action(problem, action, model.free_owner());
     }
     for (MethodId method = 0; method < problem.method_count(); ++method) {
+        limits.stop_if_reached();
         model.add_decomposition(problem, method);
     }
-    model.index();
+    model.index(limits);
     return model;
 }
 
-RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs)
+RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
     : owner_cost(costs.begin(), costs.end()), complement_of_(problem.fact_count(), kAlwaysTrue) {
     owner_cost.push_back(0);
     std::vector<FactId> negative;
     for (ActionId action = 0; action < problem.action_count(); ++action) {
+        limits.stop_if_reached();
         const auto row = problem.negative_preconditions[action];
         negative.insert(negative.end(), row.begin(), row.end());
     }
     for (EffectId effect = 0; effect < problem.effect_negative_conditions.size(); ++effect) {
+        limits.stop_if_reached();
         const auto row = problem.effect_negative_conditions[effect];
         negative.insert(negative.end(), row.begin(), row.end());
     }
@@ -196,18 +206,21 @@ std::size_t RelaxedModel::bytes() const {
            owner_operators.bytes() + owner.size() * sizeof(OwnerId) + owner_cost.size() * sizeof(Cost);
 }
 
-void RelaxedModel::index() {
-    precondition_of = invert(preconditions, fact_count());
-    achievers = invert(adds, fact_count());
-    std::vector<std::vector<OperatorId>> owned(owner_cost.size());
-    for (OperatorId op = 0; op < owner.size(); ++op) {
-        if (owner[op] != free_owner()) {
-            owned[owner[op]].push_back(op);
+void RelaxedModel::index(Limits& limits) {
+    precondition_of = invert(preconditions, fact_count(), limits);
+    achievers = invert(adds, fact_count(), limits);
+    std::vector<std::uint32_t> counts(owner_cost.size(), 0);
+    for (const OwnerId pays : owner) {
+        counts[pays] += pays == free_owner() ? 0 : 1;
+    }
+    owner_operators = Rows<OperatorId>::filled(counts, [&](const auto& put) {
+        for (OperatorId op = 0; op < owner.size(); ++op) {
+            limits.stop_if_reached();
+            if (owner[op] != free_owner()) {
+                put(owner[op], op);
+            }
         }
-    }
-    for (const auto& list : owned) {
-        owner_operators.add_row(list);
-    }
+    });
 }
 
 }  // namespace relax

@@ -7,8 +7,9 @@
 
 namespace relax {
 
-RelaxedPlan::RelaxedPlan(const RelaxedModel& model)
+RelaxedPlan::RelaxedPlan(const RelaxedModel& model, Limits& limits)
     : model_(model),
+      limits_(limits),
       facts_(model.fact_count(), {0, kGiven, 0}),
       operators_(model.operator_count(), {0, 0, 0}),
       in_plan_(model.operator_count(), 0),
@@ -21,6 +22,7 @@ RelaxedPlan::RelaxedPlan(const RelaxedModel& model)
     }
     const Cost step = std::max(Cost{1}, count == 0 ? Cost{1} : sum / count);
     for (OperatorId op = 0; op < model.operator_count(); ++op) {
+        limits.stop_if_reached();
         weight_.push_back(add_bounds(model.owner_cost[model.owner[op]], step));
         preconditions_.push_back(static_cast<std::uint32_t>(model.preconditions[op].size()));
     }
@@ -42,6 +44,7 @@ void RelaxedPlan::weigh_tasks() {
         }
     };
     for (OperatorId op = 0; op < model_.operator_count(); ++op) {
+        limits_.stop_if_reached();
         missing[op] = model_.operator_subtasks[op].size();
         for (const TaskId subtask : model_.operator_subtasks[op]) {
             users[subtask].push_back(op);
@@ -51,6 +54,7 @@ void RelaxedPlan::weigh_tasks() {
         }
     }
     while (!queue.empty()) {
+        limits_.stop_if_reached();
         std::pop_heap(queue.begin(), queue.end(), std::greater<>());
         const auto [weight, task] = queue.back();
         queue.pop_back();
@@ -81,6 +85,7 @@ std::optional<Cost> RelaxedPlan::add(const RelaxedTask& task) {
     }
     // Facts leave the queue in order of their costs: with the last goal, all that matters is known.
     while (!queue_.empty() && open_goals > 0) {
+        limits_.stop_if_reached();
         std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
         const auto [cost, fact] = queue_.back();
         queue_.pop_back();
@@ -138,6 +143,7 @@ Cost RelaxedPlan::extract_plan(const RelaxedTask& task) {
         wanted_[fact] = epoch_;
     }
     while (!pending_.empty()) {
+        limits_.stop_if_reached();
         const OperatorId op = facts_[pending_.back()].achiever;
         pending_.pop_back();
         if (op != kGiven && in_plan_[op] != epoch_) {

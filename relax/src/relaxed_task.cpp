@@ -5,8 +5,9 @@
 
 namespace relax {
 
-RelaxedTask::RelaxedTask(const RelaxedModel& model, bool lists_operators)
+RelaxedTask::RelaxedTask(const RelaxedModel& model, bool lists_operators, Limits& limits)
     : model_(model),
+      limits_(limits),
       lists_operators_(lists_operators),
       free_owner_(static_cast<OwnerId>(model.owner_cost.size() - 1)),
       seen_(model.task_operators.size(), 0),
@@ -47,6 +48,7 @@ void RelaxedTask::set_facts(std::span<const std::uint64_t> state) {
 void RelaxedTask::reach_operators() {
     operators_.clear();
     while (!pending_.empty()) {
+        limits_.stop_if_reached();
         const TaskId task = pending_.back();
         pending_.pop_back();
         for (const OperatorId op : model_.task_operators[task]) {
@@ -80,6 +82,7 @@ void RelaxedTask::start_in_order(const NodeView& node) {
     }
     const std::size_t words = (node.tasks.size() + 63) / 64;
     for (std::size_t at = 0; at < node.tasks.size(); ++at) {
+        limits_.stop_if_reached();
         needed_.clear();
         if (!node.predecessors.empty()) {
             for_each_bit(node.predecessors.subspan(at * words, words),
@@ -102,6 +105,7 @@ void RelaxedTask::start_one_by_one(std::span<const TaskId> tasks) {
     starts_.push_back(model_.may_start(tasks.front()));
     needed_.assign(1, model_.reached(tasks.front()));
     for (const TaskId task : tasks.subspan(1)) {
+        limits_.stop_if_reached();
         const RelaxedFact done = add_fact();
         add_order(needed_, {{done, model_.may_start(task)}});
         needed_.assign({done, model_.reached(task)});

@@ -16,13 +16,15 @@ void unite(std::span<std::uint64_t> into, std::span<const std::uint64_t> other) 
 
 }  // namespace
 
-RelevantFacts::RelevantFacts(const GroundProblem& problem)
+RelevantFacts::RelevantFacts(const GroundProblem& problem, Limits& limits)
     : problem_(problem),
+      limits_(limits),
       words_((problem.fact_count() + 63) / 64),
       component_(problem.task_count(), kUnvisited),
       masks_(words_),
       mask_(words_) {
     for (ActionId action = 0; action < problem.action_count(); ++action) {
+        limits.stop_if_reached();
         component_[action] = component_count_++;
         masks_of_components_.resize(component_count_ * words_, 0);
         add_reads(action);
@@ -67,6 +69,7 @@ void RelevantFacts::find_components() {
             enter(root);
         }
         while (!visits.empty()) {
+            limits_.stop_if_reached();
             Visit& visit = visits.back();
             const TaskId task = visit.task;
             const auto methods = problem_.methods_of(task);
@@ -110,6 +113,7 @@ void RelevantFacts::close_component(std::span<const TaskId> members) {
     const auto mask = std::span(masks_of_components_).last(words_);
     for (const TaskId task : members) {
         for (const MethodId method : problem_.methods_of(task)) {
+            limits_.stop_if_reached();
             for (const TaskId subtask : problem_.method_subtasks[method]) {
                 unite(mask, of(subtask));
             }
@@ -141,6 +145,7 @@ RelevantFacts::MaskId RelevantFacts::find(TaskNetworks& networks, NetworkId netw
 RelevantFacts::MaskId RelevantFacts::find_in_chain(TaskNetworks& networks, NetworkId network) {
     chain_.clear();
     for (; known(network) == kUnknown && !networks.is_empty(network); network = networks.progress(network, 0)) {
+        limits_.stop_if_reached();
         chain_.push_back(network);
     }
     if (known(network) == kUnknown) {
@@ -148,6 +153,7 @@ RelevantFacts::MaskId RelevantFacts::find_in_chain(TaskNetworks& networks, Netwo
     }
     std::ranges::copy(masks_[known(network)], mask_.begin());
     for (std::size_t at = chain_.size(); at-- > 0;) {
+        limits_.stop_if_reached();
         first_.clear();
         networks.unconstrained(chain_[at], first_);
         unite(mask_, of(first_.front().task));

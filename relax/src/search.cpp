@@ -1,5 +1,6 @@
 #include "relax/search.hpp"
 
+#include <new>
 #include <utility>
 
 #include "relax/find_plans.hpp"
@@ -9,8 +10,10 @@
 
 namespace relax {
 
-SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
-                    SearchStatistics& statistics) {
+namespace {
+
+SearchResult search_or_throw(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
+                             Limits& limits, SearchStatistics& statistics) {
     if (options.algorithm == SearchAlgorithm::Greedy) {
         return GreedySearch(problem, std::move(costs), options, limits, statistics).run();
     }
@@ -21,6 +24,28 @@ SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const
         return Portfolio(problem, std::move(costs), options, limits, statistics).run();
     }
     return FindPlans(problem, std::move(costs), options, limits, statistics).run();
+}
+
+// The end of a search that a limit stopped while it was being prepared.
+SearchResult stopped_early(StopReason reason, const SearchStatistics& statistics) {
+    SearchResult result;
+    result.status = status_of(reason);
+    result.is_stopped = true;
+    result.statistics = statistics;
+    return result;
+}
+
+}  // namespace
+
+SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+                    SearchStatistics& statistics) {
+    try {
+        return search_or_throw(problem, std::move(costs), options, limits, statistics);
+    } catch (const Stopped& stopped) {
+        return stopped_early(stopped.reason, statistics);
+    } catch (const std::bad_alloc&) {
+        return stopped_early(StopReason::MemoryLimit, statistics);
+    }
 }
 
 }  // namespace relax

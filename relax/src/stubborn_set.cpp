@@ -77,6 +77,7 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
     is_after_.assign(network.words, 0);
     put(seed);
     for (std::size_t next = 0; next < members_.size(); ++next) {
+        limits_.stop_if_reached();
         const std::uint32_t member = members_[next];
         if (concerns(compounds_, member, state)) {
             return false;

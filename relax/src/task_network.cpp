@@ -8,11 +8,11 @@
 namespace relax {
 
 std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
-                                                 bool use_macros) {
+                                                 bool use_macros, Limits& limits) {
     if (TotallyOrderedNetworks::fits(problem)) {
-        return std::make_unique<TotallyOrderedNetworks>(problem, std::move(task_bounds), use_macros);
+        return std::make_unique<TotallyOrderedNetworks>(problem, std::move(task_bounds), use_macros, limits);
     }
-    return std::make_unique<PartiallyOrderedNetworks>(problem, std::move(task_bounds));
+    return std::make_unique<PartiallyOrderedNetworks>(problem, std::move(task_bounds), limits);
 }
 
 }  // namespace relax

@@ -62,6 +62,7 @@ TaskProfile TaskProfiles::of_compound(TaskId task) {
     std::vector<TaskId> pending{task};
     is_seen[task] = true;
     while (!pending.empty()) {
+        limits_.stop_if_reached();
         const TaskId next = pending.back();
         pending.pop_back();
         if (problem_.is_primitive(next) || profiles_[next]) {

@@ -14,8 +14,9 @@ namespace {
 // By TaskId: the methods with that subtask, once for each time they have it.
 class Occurrences {
 public:
-    explicit Occurrences(const GroundProblem& problem) : ends_(problem.task_count() + 1, 0) {
+    Occurrences(const GroundProblem& problem, Limits& limits) : ends_(problem.task_count() + 1, 0) {
         for (MethodId method = 0; method < problem.method_count(); ++method) {
+            limits.stop_if_reached();
             for (const TaskId subtask : problem.method_subtasks[method]) {
                 ++ends_[subtask + 1];
             }
@@ -24,6 +25,7 @@ public:
         methods_.resize(ends_.back());
         std::vector<std::size_t> next(ends_.begin(), ends_.end() - 1);
         for (MethodId method = 0; method < problem.method_count(); ++method) {
+            limits.stop_if_reached();
             for (const TaskId subtask : problem.method_subtasks[method]) {
                 methods_[next[subtask]++] = method;
             }
@@ -41,9 +43,9 @@ private:
 
 }  // namespace
 
-std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs) {
+std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits) {
     std::vector<Cost> bound(problem.task_count(), kNoDecomposition);
-    const Occurrences methods_with(problem);
+    const Occurrences methods_with(problem, limits);
     std::vector<std::uint32_t> missing(problem.method_count());  // subtasks that have no bound yet
     std::vector<Cost> sum(problem.method_count(), 0);
     std::priority_queue<std::pair<Cost, TaskId>, std::vector<std::pair<Cost, TaskId>>, std::greater<>> queue;
@@ -65,6 +67,7 @@ std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> 
         offer(action, costs[action]);
     }
     while (!queue.empty()) {
+        limits.stop_if_reached();
         const auto [value, task] = queue.top();
         queue.pop();
         if (value != bound[task]) {

@@ -42,11 +42,25 @@ TopPlans::TopPlans(const GroundProblem& problem, std::vector<Cost> costs,
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_), allowed(options)),
+      progression_(problem, costs_, tdg_bound(problem, costs_, limits), allowed(options), limits),
       heuristic_(make_heuristic(options.search.heuristic, problem, costs_, limits)) {
     if (options_.distinct == Distinct::Sequence) {
         progression_.hurry_only(without_label(labels_));
     }
+}
+
+TopPlansResult top_plans(const GroundProblem& problem, std::vector<Cost> costs,
+                         std::vector<std::optional<ActionLabel>> labels, const TopPlansOptions& options, Limits& limits,
+                         TopPlansStatistics& statistics) {
+    TopPlansResult stopped_early;
+    try {
+        return TopPlans(problem, std::move(costs), std::move(labels), options, limits, statistics).run();
+    } catch (const Stopped& stopped) {
+        stopped_early.stop = stopped.reason;
+    } catch (const std::bad_alloc&) {
+        stopped_early.stop = StopReason::MemoryLimit;
+    }
+    return stopped_early;
 }
 
 TopPlansResult TopPlans::run() {
@@ -57,9 +71,12 @@ TopPlansResult TopPlans::run() {
     }
     try {
         result.stop = search();
+    } catch (const Stopped& stopped) {
+        result.stop = stopped.reason;
     } catch (const std::bad_alloc&) {
         result.stop = StopReason::MemoryLimit;
     }
+    const Limits::Suspension suspension(limits_);
     result.is_all = !result.stop && (plans_.size() < options_.count || (open_.is_empty() && !leaves_out_));
     if (result.is_all) {
         statistics_.lower_bound.reset();

@@ -14,11 +14,12 @@ std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_
 }  // namespace
 
 TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
-                                               bool use_macros)
+                                               bool use_macros, Limits& limits)
     : problem_(problem), task_bounds_(std::move(task_bounds)) {
     std::vector<std::uint32_t> before;  // the order is transitively closed: this is the subtask's place
     std::vector<std::uint32_t> sequence;
     for (MethodId method = 0; method < problem.method_count(); ++method) {
+        limits.stop_if_reached();
         const std::size_t count = problem.method_subtasks[method].size();
         before.assign(count, 0);
         for (const auto& [earlier, later] : problem.method_ordering[method]) {
@@ -31,7 +32,7 @@ TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std
         sequence_.add_row(sequence);
     }
     if (use_macros) {
-        macros_.emplace(problem);
+        macros_.emplace(problem, limits);
     }
     cells_.push_back({0, 0, kEmpty, 0, 0});
     forms_.push_back({0, 0});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax {
 
@@ -64,7 +65,9 @@ inline void turn_round(const OrderedTasks& network, OrderedTasks& reverse) {
 // order.
 class CanonicalOrder {
 public:
-    // Returns the old index for each new one; valid until the next call.
+    explicit CanonicalOrder(Limits& limits) : limits_(limits) {}
+
+    // Returns the old index for each new one; valid until the next call. Throws Stopped.
     std::span<const std::uint32_t> of(const OrderedTasks& network);
 
 private:
@@ -73,6 +76,7 @@ private:
     void sort();
     bool are_twins(const OrderedTasks& network, std::uint32_t left, std::uint32_t right) const;
 
+    Limits& limits_;
     std::vector<std::uint32_t> order_;
     std::vector<std::uint32_t> predecessor_count_;
     std::vector<std::uint64_t> colours_;

@@ -6,6 +6,7 @@
 
 #include "relax/canonical_order.hpp"
 #include "relax/ground_problem.hpp"
+#include "relax/limits.hpp"
 #include "relax/macro_actions.hpp"
 
 namespace relax {
@@ -14,7 +15,7 @@ namespace relax {
 // can come last. Where no order of them can be executed, the network leads nowhere, whatever its compound tasks become.
 class Ending {
 public:
-    explicit Ending(const GroundProblem& problem) : problem_(problem), macros_(problem) {}
+    Ending(const GroundProblem& problem, Limits& limits) : problem_(problem), macros_(problem, limits) {}
 
     // False: no state that can be reached lets the network be executed. True says nothing.
     bool is_possible(const OrderedTasks& network);

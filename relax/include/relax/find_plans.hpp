@@ -31,7 +31,7 @@ class FindPlans {
 public:
     // `costs`: by ActionId, at least 0. `statistics` is kept up to date for whoever watches from `limits.poll`.
     FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
-              SearchStatistics& statistics);
+              SearchStatistics& statistics);  // throws Stopped
 
     // Search to the end. Throws std::overflow_error if costs add up to more than fixed point can hold.
     SearchResult run();
@@ -58,6 +58,7 @@ private:
     bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic); }
     bool is_stale(const OpenList::Entry& entry) const;
     bool evaluate(NodeId id, Cost f);
+    std::optional<Cost> ask(AdaptiveHeuristic& heuristic, NodeId id);
     bool can_end(const SearchNode& node);
     std::uint64_t work_of_a_node(const AdaptiveHeuristic& heuristic) const;
     void expand(NodeId id);
@@ -85,7 +86,7 @@ private:
     std::optional<NodeId> goal_;  // of the best plan so far
     std::optional<StopReason> stop_;
     bool is_done_ = false;
-    bool is_torn_ = false;  // memory ran out in the middle of an expansion
+    bool is_torn_ = false;  // in the middle of an expansion, where a node is in no list
     std::vector<Successor> successors_;
     std::vector<Successor> forced_;
 };

@@ -45,8 +45,8 @@ public:
     virtual bool is_preferred(MethodId /*method*/) const { return false; }
 };
 
-// `costs`: by ActionId. All kinds say dead end only where it is true. When a limit is reached, an evaluation may end
-// early with a weaker estimate.
+// `costs`: by ActionId. All kinds say dead end only where it is true. When a limit is reached, an evaluation ends early
+// with a weaker estimate, or throws Stopped, as this function does.
 std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs,
                                           Limits& limits);
 

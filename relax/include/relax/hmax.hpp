@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "relax/limits.hpp"
 #include "relax/relaxed_task.hpp"
 
 namespace relax {
@@ -23,7 +24,9 @@ class HMax {
 public:
     static constexpr Cost kInfinite = std::numeric_limits<Cost>::max();
 
-    explicit HMax(const RelaxedModel& model);
+    HMax(const RelaxedModel& model, Limits& limits);
+
+    // Both computations throw Stopped; after that, the next one must be from scratch.
 
     // Compute from scratch; `costs` by OwnerId. Returns the cost of the dearest goal, or nothing where one is out of
     // reach.
@@ -66,6 +69,7 @@ private:
     Cost find_dearest_goal(std::span<const RelaxedFact> goals);
 
     const RelaxedModel& model_;
+    Limits& limits_;
     std::vector<FactState> facts_;
     std::vector<OperatorState> operators_;
     // The queue: facts of the present level, and a heap of the dearer ones, cheapest first.

@@ -33,6 +33,22 @@ public:
         return {values_.data() + begin, ends_[row] - begin};
     }
 
+    // Rows of the given lengths. `fill` gets a function that puts a value at the end of what a row has so far, and must
+    // call it as often as the lengths say.
+    template <typename Fill>
+    static Rows filled(const std::vector<std::uint32_t>& lengths, Fill fill) {
+        Rows rows;
+        rows.ends_.reserve(lengths.size());
+        std::uint32_t begin = 0;
+        for (const std::uint32_t length : lengths) {
+            rows.ends_.push_back(begin);  // moves on to the end as the row is filled
+            begin += length;
+        }
+        rows.values_.resize(begin);
+        fill([&rows](std::size_t row, Value value) { rows.values_[rows.ends_[row]++] = std::move(value); });
+        return rows;
+    }
+
     // Append to the row that `finish_row` will close.
     void push(Value value) { values_.push_back(std::move(value)); }
     void finish_row() { ends_.push_back(static_cast<std::uint32_t>(values_.size())); }

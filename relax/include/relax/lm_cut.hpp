@@ -26,7 +26,7 @@ public:
     LmCut(const RelaxedModel& model, Limits& limits);
 
     // Returns a lower bound of the cost of any plan of the relaxed task, or nothing where there is none. A limit ends
-    // the rounds early, with a lower bound all the same.
+    // the rounds early, with a lower bound all the same; before the first round it throws Stopped.
     std::optional<Cost> run(const RelaxedTask& task);
     // How many operators have been looked at so far.
     std::uint64_t work() const { return looks_ + hmax_.work(); }
@@ -41,6 +41,7 @@ private:
     };
 
     void mark_goal_zone(const RelaxedTask& task);
+    Cost take_off_cut();
     void find_cut(const RelaxedTask& task, Cost goal_cost);
     bool is_reached_outside(const RelaxedTask& task, RelaxedFact fact, Cost goal_cost);
     Zone zone(RelaxedFact fact) const { return marks_[fact].round == rounds_ ? marks_[fact].zone : Zone::Unknown; }

@@ -9,6 +9,7 @@
 #include "relax/ground_problem.hpp"
 #include "relax/id_table.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 #include "relax/mutexes.hpp"
 #include "relax/task_profiles.hpp"
 
@@ -22,7 +23,7 @@ class MacroActions {
 public:
     static constexpr MacroId kNothing = 0;  // the empty sequence, and all that need and change nothing
 
-    explicit MacroActions(const GroundProblem& problem);
+    MacroActions(const GroundProblem& problem, Limits& limits);  // throws Stopped
 
     // Whether an action can be part of one: its effects have no conditions.
     bool fits(ActionId action) const;

@@ -8,6 +8,7 @@
 
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax {
 
@@ -15,8 +16,8 @@ namespace relax {
 // Geffner 2000) cannot reach.
 class Mutexes {
 public:
-    // On large problems nothing is found, since it would take too long.
-    explicit Mutexes(const GroundProblem& problem);
+    // On large problems nothing is found, since it would take too long. Throws Stopped.
+    Mutexes(const GroundProblem& problem, Limits& limits);
 
     bool are_mutex(FactId one, FactId other) const {
         return !together_.empty() && !contains(row(one), other) && one != other;

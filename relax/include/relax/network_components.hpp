@@ -8,6 +8,7 @@
 #include "relax/canonical_order.hpp"
 #include "relax/id_table.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 #include "relax/segmented_array.hpp"
 
 namespace relax {
@@ -20,10 +21,11 @@ using ComponentId = std::uint32_t;
 class NetworkComponents {
 public:
     // `task_bounds`: by TaskId, see tdg_bound.
-    explicit NetworkComponents(std::vector<Cost> task_bounds) : task_bounds_(std::move(task_bounds)) {}
+    NetworkComponents(std::vector<Cost> task_bounds, Limits& limits)
+        : task_bounds_(std::move(task_bounds)), canonical_(limits) {}
 
     // Bring a component into its canonical form and keep it. `order`, where given, gets for each index there the one in
-    // `draft`.
+    // `draft`. Throws Stopped.
     ComponentId intern(const OrderedTasks& draft, std::vector<std::uint32_t>* order);
 
     std::uint32_t size(ComponentId id) const { return records_[id].size; }

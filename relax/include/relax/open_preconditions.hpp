@@ -7,6 +7,7 @@
 #include "relax/canonical_order.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 #include "relax/state.hpp"
 #include "relax/task_profiles.hpp"
 
@@ -18,14 +19,15 @@ namespace relax {
 // again in between. (The question of causal links and their threats, as in partial-order causal-link planning.)
 class OpenPreconditions {
 public:
-    explicit OpenPreconditions(const GroundProblem& problem);
+    OpenPreconditions(const GroundProblem& problem, Limits& limits);
 
-    // False only if the network has no executable decomposition.
+    // False only if the network has no executable decomposition. Throws Stopped.
     bool can_be_met(const OrderedTasks& network);
 
 private:
     bool can_be_met(const OrderedTasks& network, std::size_t task, Literal literal);
 
+    Limits& limits_;
     StateBits initial_state_;
     TaskProfiles profiles_;
     std::vector<const TaskProfile*> occurring_;  // by occurrence of the network looked at

@@ -18,7 +18,7 @@ namespace relax {
 // index counts through the components in the order of their numbers.
 class PartiallyOrderedNetworks final : public TaskNetworks {
 public:
-    PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds);
+    PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, Limits& limits);
 
     NetworkId initial() override;
     void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const override;
@@ -64,6 +64,7 @@ private:
     NetworkId intern(std::span<const ComponentId> components);
 
     const GroundProblem& problem_;
+    Limits& limits_;
     NetworkComponents components_;
     RunArena<ComponentId> lists_;
     SegmentedArray<Record> records_;

@@ -29,7 +29,7 @@ public:
     Portfolio(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);
 
-    SearchResult run();
+    SearchResult run();  // throws Stopped where nothing was begun
 
 private:
     struct Member {
@@ -43,7 +43,7 @@ private:
     bool lags(const Member& member, std::uint64_t work) const;
     void add_up();
     void share_bounds();
-    SearchResult gather(Member& last);
+    SearchResult gather(Member& ended);
 
     const GroundProblem& problem_;
     std::vector<Cost> costs_;
@@ -51,6 +51,7 @@ private:
     Limits& limits_;
     SearchStatistics& statistics_;
     std::vector<Member> members_;
+    std::optional<StopReason> stop_;  // why a search could not be made
 };
 
 }  // namespace relax

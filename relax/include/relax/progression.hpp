@@ -11,6 +11,7 @@
 #include "relax/ground_problem.hpp"
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 #include "relax/relevant_facts.hpp"
 #include "relax/state.hpp"
 #include "relax/stubborn_set.hpp"
@@ -49,9 +50,11 @@ struct ProgressionOptions {
 // whose first task is an action that is not applicable leads nowhere.
 class Progression {
 public:
+    // All that makes states or networks may throw Stopped.
+    //
     // `costs`: by ActionId. `task_bounds`: see tdg_bound.
     Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
-                const ProgressionOptions& options);
+                const ProgressionOptions& options, Limits& limits);
 
     StateId initial_state();
     NetworkId initial_network() { return networks_->initial(); }

@@ -18,7 +18,9 @@ template <typename ClassicalHeuristic>
 class RcHeuristic final : public Heuristic {
 public:
     RcHeuristic(RelaxedModel model, Limits& limits)
-        : model_(std::move(model)), task_(model_, ClassicalHeuristic::kReadsOperators), classical_(model_, limits) {}
+        : model_(std::move(model)),
+          task_(model_, ClassicalHeuristic::kReadsOperators, limits),
+          classical_(model_, limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         task_.set(node);

@@ -23,6 +23,7 @@
 
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax {
 
@@ -33,10 +34,11 @@ using OwnerId = std::uint32_t;
 
 class RelaxedModel {
 public:
+    // Both throw Stopped.
     // `costs`: by ActionId, all at least 0.
-    static RelaxedModel composition(const GroundProblem& problem, std::span<const Cost> costs);
+    static RelaxedModel composition(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits);
     // `costs`: by MethodId, all at least 0; actions are free.
-    static RelaxedModel decomposition(const GroundProblem& problem, std::span<const Cost> costs);
+    static RelaxedModel decomposition(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits);
 
     static constexpr RelaxedFact kAlwaysTrue = 0;
 
@@ -73,13 +75,13 @@ public:
     std::vector<TaskId> operator_task;        // by OperatorId: the action, or the task of the method
 
 private:
-    RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs);
+    RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits);
 
     void add_operator(std::vector<RelaxedFact> needed, std::vector<RelaxedFact> made, OwnerId owner_of_it);
     void add_action(const GroundProblem& problem, ActionId action, OwnerId owner_of_it);
     void add_composition(const GroundProblem& problem, MethodId method);
     void add_decomposition(const GroundProblem& problem, MethodId method);
-    void index();
+    void index(Limits& limits);
 
     OwnerId free_owner() const { return static_cast<OwnerId>(owner_cost.size() - 1); }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "relax/limits.hpp"
 #include "relax/relaxed_task.hpp"
 
 namespace relax {
@@ -21,7 +22,9 @@ class RelaxedPlan {
 public:
     static constexpr bool kReadsOperators = false;
 
-    explicit RelaxedPlan(const RelaxedModel& model);
+    RelaxedPlan(const RelaxedModel& model, Limits& limits);
+
+    // Both throw Stopped.
 
     // Returns the additive estimate, or nothing where a goal is out of reach.
     std::optional<Cost> add(const RelaxedTask& task);
@@ -50,6 +53,7 @@ private:
     Cost extract_plan(const RelaxedTask& task);
 
     const RelaxedModel& model_;
+    Limits& limits_;
     std::vector<Cost> weight_;                  // by OperatorId
     std::vector<std::uint32_t> preconditions_;  // by OperatorId: how many
     std::vector<Cost> least_weight_;            // by TaskId: of a decomposition

@@ -7,6 +7,7 @@
 
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 #include "relax/relaxed_model.hpp"
 
 namespace relax {
@@ -19,8 +20,9 @@ namespace relax {
 class RelaxedTask {
 public:
     // `lists_operators`: whether `operators` is asked for, which takes a while on large problems.
-    RelaxedTask(const RelaxedModel& model, bool lists_operators);
+    RelaxedTask(const RelaxedModel& model, bool lists_operators, Limits& limits);
 
+    // Throws Stopped.
     void set(const NodeView& node);
 
     const RelaxedModel& model() const { return model_; }
@@ -93,6 +95,7 @@ private:
     }
 
     const RelaxedModel& model_;
+    Limits& limits_;
     bool lists_operators_;
     OwnerId free_owner_;
     std::vector<RelaxedFact> facts_;

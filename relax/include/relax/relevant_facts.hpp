@@ -7,6 +7,7 @@
 
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 #include "relax/segmented_array.hpp"
 #include "relax/state.hpp"
 #include "relax/task_network.hpp"
@@ -18,9 +19,9 @@ namespace relax {
 // ground action has one cost.) States that agree on them are the same to a network.
 class RelevantFacts {
 public:
-    explicit RelevantFacts(const GroundProblem& problem);
+    RelevantFacts(const GroundProblem& problem, Limits& limits);
 
-    // As bits by FactId. Valid for ever.
+    // As bits by FactId. Valid for ever. Throws Stopped.
     std::span<const std::uint64_t> of(TaskNetworks& networks, NetworkId network);
 
 private:
@@ -38,6 +39,7 @@ private:
     MaskId& known(NetworkId network);
 
     const GroundProblem& problem_;
+    Limits& limits_;
     std::size_t words_;
     // By TaskId: its strongly connected component in the task decomposition graph; by component: what is read below it.
     std::vector<std::uint32_t> component_;

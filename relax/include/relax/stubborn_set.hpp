@@ -10,6 +10,7 @@
 #include "relax/canonical_order.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 #include "relax/state.hpp"
 #include "relax/task_network.hpp"
 #include "relax/task_profiles.hpp"
@@ -23,11 +24,15 @@ namespace relax {
 // Every task has to be executed some time; the first one of the set can then be moved to the front of any plan.
 class StubbornSet {
 public:
-    explicit StubbornSet(const GroundProblem& problem)
-        : problem_(problem), profiles_(problem), transition_(problem), compounds_(TaskProfile::empty(problem)) {}
+    StubbornSet(const GroundProblem& problem, Limits& limits)
+        : problem_(problem),
+          limits_(limits),
+          profiles_(problem, limits),
+          transition_(problem),
+          compounds_(TaskProfile::empty(problem)) {}
 
     // Find the applicable ones of the smallest such set: where there are none, the node is a dead end. Nothing, where
-    // every set has to do with an unconstrained compound task. Valid until the next call.
+    // every set has to do with an unconstrained compound task. Valid until the next call. Throws Stopped.
     std::optional<std::span<const Occurrence>> find(const OrderedTasks& network, std::span<const std::uint64_t> state,
                                                     std::span<const Occurrence> unconstrained);
 
@@ -38,6 +43,7 @@ private:
     void put(std::uint32_t index);
 
     const GroundProblem& problem_;
+    Limits& limits_;
     TaskProfiles profiles_;
     StateTransition transition_;
     // Of the network looked at.

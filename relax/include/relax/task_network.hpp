@@ -14,6 +14,7 @@
 #include "relax/canonical_order.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax {
 
@@ -32,6 +33,7 @@ struct Origin {
     std::uint32_t index;
 };
 
+// Making networks may throw Stopped; those that were made stay.
 class TaskNetworks {
 public:
     virtual ~TaskNetworks() = default;
@@ -65,7 +67,7 @@ public:
 
 // `task_bounds`: by TaskId, see tdg_bound.
 std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
-                                                 bool use_macros);
+                                                 bool use_macros, Limits& limits);
 
 }  // namespace relax
 

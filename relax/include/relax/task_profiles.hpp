@@ -9,6 +9,7 @@
 
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax {
 
@@ -58,8 +59,10 @@ struct TaskProfile {
 // The profiles of tasks, each made when it is first asked for.
 class TaskProfiles {
 public:
-    explicit TaskProfiles(const GroundProblem& problem) : problem_(problem), profiles_(problem.task_count()) {}
+    TaskProfiles(const GroundProblem& problem, Limits& limits)
+        : problem_(problem), limits_(limits), profiles_(problem.task_count()) {}
 
+    // Throws Stopped.
     const TaskProfile& operator[](TaskId task);
 
 private:
@@ -67,6 +70,7 @@ private:
     TaskProfile of_compound(TaskId task);
 
     const GroundProblem& problem_;
+    Limits& limits_;
     std::vector<std::unique_ptr<const TaskProfile>> profiles_;  // by TaskId
 };
 

@@ -68,7 +68,7 @@ struct TopPlansResult {
 class TopPlans {
 public:
     // `costs`: by ActionId, at least 0. `labels`: by ActionId. `statistics` is kept up to date for whoever watches from
-    // `limits.poll`.
+    // `limits.poll`. Throws Stopped.
     TopPlans(const GroundProblem& problem, std::vector<Cost> costs, std::vector<std::optional<ActionLabel>> labels,
              const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
 
@@ -134,6 +134,11 @@ private:
     std::vector<Successor> successors_;
     std::vector<TaskId> tasks_;
 };
+
+// Make and run it; a limit that is reached while it is being made is a result, too.
+TopPlansResult top_plans(const GroundProblem& problem, std::vector<Cost> costs,
+                         std::vector<std::optional<ActionLabel>> labels, const TopPlansOptions& options, Limits& limits,
+                         TopPlansStatistics& statistics);
 
 }  // namespace relax
 

@@ -16,7 +16,8 @@ namespace relax {
 class TotallyOrderedNetworks final : public TaskNetworks {
 public:
     // `use_macros`: whether forms are wanted.
-    TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, bool use_macros);
+    TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, bool use_macros,
+                           Limits& limits);
 
     // Every method orders its subtasks totally.
     static bool fits(const GroundProblem& problem);
