@@ -9,6 +9,7 @@
 namespace relax {
 
 std::span<const std::uint32_t> CanonicalOrder::of(const OrderedTasks& network) {
+    knows_successors_ = false;
     colour(network);
     refine(network);
     sort();
@@ -42,6 +43,7 @@ void CanonicalOrder::colour(const OrderedTasks& network) {
     std::iota(order_.begin(), order_.end(), 0U);
     predecessor_count_.assign(count, 0);
     colours_.resize(count);
+    work_ += network.predecessors.size();
     for (std::size_t index = 0; index < count; ++index) {
         for (const std::uint64_t word : network.row(index)) {
             predecessor_count_[index] += static_cast<std::uint32_t>(std::popcount(word));
@@ -55,6 +57,7 @@ void CanonicalOrder::refine(const OrderedTasks& network) {
     const std::size_t count = network.tasks.size();
     const auto count_colours = [&] {
         sorted_ = colours_;
+        work_ += count;
         std::sort(sorted_.begin(), sorted_.end());
         return static_cast<std::size_t>(std::unique(sorted_.begin(), sorted_.end()) - sorted_.begin());
     };
@@ -66,6 +69,7 @@ void CanonicalOrder::refine(const OrderedTasks& network) {
             for_each_bit(network.row(later), [&](std::size_t earlier) {
                 from_predecessors_[later] += mix(colours_[earlier]);
                 from_successors_[earlier] += mix(colours_[later]);
+                ++work_;
             });
         }
         for (std::size_t index = 0; index < count; ++index) {
@@ -80,6 +84,7 @@ void CanonicalOrder::refine(const OrderedTasks& network) {
 }
 
 void CanonicalOrder::sort() {
+    work_ += order_.size();
     std::sort(order_.begin(), order_.end(), [this](std::uint32_t left, std::uint32_t right) {
         if (predecessor_count_[left] != predecessor_count_[right]) {
             return predecessor_count_[left] < predecessor_count_[right];
@@ -89,16 +94,17 @@ void CanonicalOrder::sort() {
 }
 
 // Same task, same predecessors, same successors.
-bool CanonicalOrder::are_twins(const OrderedTasks& network, std::uint32_t left, std::uint32_t right) const {
+bool CanonicalOrder::are_twins(const OrderedTasks& network, std::uint32_t left, std::uint32_t right) {
+    work_ += network.words;
     if (network.tasks[left] != network.tasks[right] || !std::ranges::equal(network.row(left), network.row(right))) {
         return false;
     }
-    for (std::size_t later = 0; later < network.tasks.size(); ++later) {
-        if (network.is_before(left, later) != network.is_before(right, later)) {
-            return false;
-        }
+    if (!knows_successors_) {
+        turn_round(network, successors_);
+        knows_successors_ = true;
+        work_ += network.predecessors.size();
     }
-    return true;
+    return std::ranges::equal(successors_.row(left), successors_.row(right));
 }
 
 }  // namespace relax

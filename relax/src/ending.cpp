@@ -34,6 +34,7 @@ bool Ending::is_worth_asking() {
 bool Ending::can_end(const OrderedTasks& network, MacroId last) {
     const std::size_t count = network.tasks.size();
     is_before_.assign(network.words, 0);
+    work_ += network.tasks.size() + network.predecessors.size();
     for (std::size_t index = 0; index < count; ++index) {
         for (std::size_t word = 0; is_left_[index] && word < network.words; ++word) {
             is_before_[word] |= network.row(index)[word];

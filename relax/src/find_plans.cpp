@@ -74,7 +74,7 @@ bool FindPlans::advance(std::uint64_t work) {
 }
 
 std::uint64_t FindPlans::work() const {
-    std::uint64_t work = statistics_.generated * kWorkOfANode;
+    std::uint64_t work = statistics_.generated * kWorkOfANode + progression_.work() + (ending_ ? ending_->work() : 0);
     for (const AdaptiveHeuristic& heuristic : heuristics_) {
         work += heuristic->work();
     }
@@ -225,13 +225,14 @@ std::uint64_t FindPlans::work_of_a_node(const AdaptiveHeuristic& heuristic) cons
     if (&heuristic == &heuristics_.front()) {
         return std::uint64_t{1} << 50;
     }
-    return (work() - heuristic->work()) / std::max<std::uint64_t>(1, statistics_.expanded);
+    return (work() - heuristic->work()) / std::max<std::uint64_t>(1, decided_);
 }
 
 void FindPlans::expand(NodeId id) {
     const Cost f = priority(id);
     nodes_[id].is_expanded = true;
     ++statistics_.expanded;
+    ++decided_;
     progression_.expand(nodes_[id].state, nodes_[id].network, successors_);
     if (options_.learn_branching) {
         note_branching(id);
@@ -261,22 +262,30 @@ void FindPlans::note_branching(NodeId id) {
 }
 
 // Go on from a node as long as there is but one way and f stays as it is. Returns where that leads, unless to a dead
-// end, a goal, or what is known or too dear. The nodes between are never open, and no heuristic is asked about them.
+// end, a goal, in a circle, or to what is known or too dear. The nodes between are never open, and no heuristic is
+// asked about them.
 std::optional<NodeId> FindPlans::follow(NodeId id) {
     const Cost f = priority(id);
-    for (std::uint32_t step = 0; options_.follow_forced && step < kMostForcedSteps && priority(id) <= f; ++step) {
+    std::uint32_t step = 0;
+    for (; options_.follow_forced && step < kMostForcedSteps && priority(id) <= f && !limits_.check(); ++step) {
         SearchNode& node = nodes_[id];
         if (node.is_followed || !progression_.expand_if_forced(node.state, node.network, forced_)) {
             node.is_followed = true;
             return id;
         }
         node.is_expanded = true;
+        ++statistics_.expanded;
         const auto next = forced_.empty() ? std::nullopt : generate(id, forced_.front());
         if (!next) {
             return std::nullopt;
         }
         id = *next;
         nodes_[id].is_forced = true;
+    }
+    if (step > 0 && circle_.closes(nodes_, progression_.networks(), id)) {
+        ++statistics_.dead_ends;
+        nodes_[id].h = kDeadEnd;
+        return std::nullopt;
     }
     return id;
 }

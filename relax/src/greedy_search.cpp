@@ -110,24 +110,29 @@ NodeId GreedySearch::pop() {
 }
 
 // Expand the node and go on as long as there is a single successor. Returns the node where there are several, which
-// are then in `successors_`; nothing where the walk ends at a dead end, at a node that is known, or at a goal.
+// are then in `successors_`; nothing where the walk ends at a dead end, in a circle, at a node that is known, or at a
+// goal.
 std::optional<NodeId> GreedySearch::follow(NodeId node) {
     for (std::uint32_t steps = 0;; ++steps) {
         limits_.stop_if_reached();
         nodes_[node].is_expanded = true;
         ++statistics_.expanded;
         progression_.expand(nodes_[node].state, nodes_[node].network, successors_);
-        if (successors_.size() > 1 || (successors_.size() == 1 && steps == kLongestWalk)) {
+        if (successors_.size() > 1) {
             return node;
         }
         if (successors_.empty()) {
             return std::nullopt;
+        }
+        if (steps == kLongestWalk || limits_.check()) {
+            return circle_.closes(nodes_, progression_.networks(), node) ? std::nullopt : std::optional(node);
         }
         const auto next = generate(node, successors_.front());
         if (!next) {
             return std::nullopt;
         }
         node = *next;
+        nodes_[node].is_forced = true;
     }
 }
 

@@ -15,6 +15,7 @@ ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std
         place_[order[index]] = static_cast<std::uint32_t>(index);
     }
     form_.assign(form_words(count), 0);
+    work_ += 2 * form_.size();
     Cost bound = 0;
     std::uint32_t unconstrained = 0;
     for (std::size_t index = 0; index < count; ++index) {

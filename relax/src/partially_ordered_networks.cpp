@@ -70,6 +70,7 @@ NetworkId PartiallyOrderedNetworks::decompose(NetworkId network, std::uint32_t i
 NetworkId PartiallyOrderedNetworks::step(NetworkId network, std::uint32_t index, MethodId method,
                                          std::vector<Origin>* origins) {
     const auto old = components(network);
+    work_ += old.size();
     std::size_t changed = 0;
     std::uint32_t begin = 0;
     while (index >= begin + components_.size(old[changed])) {
@@ -157,6 +158,7 @@ void PartiallyOrderedNetworks::replace(ComponentId component, std::uint32_t inde
 void PartiallyOrderedNetworks::split(std::vector<Part>& parts) {
     const std::size_t count = draft_.tasks.size();
     part_of_.resize(count);
+    work_ += 4 * draft_.predecessors.size();
     std::iota(part_of_.begin(), part_of_.end(), 0U);
     const auto root = [this](std::uint32_t index) {
         while (part_of_[index] != index) {

@@ -75,6 +75,7 @@ bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector
     to_execute_.clear();
     unconstrained_.clear();
     networks_->unconstrained(network, unconstrained_);
+    work_ += unconstrained_.size();
     for (const Occurrence& occurrence : unconstrained_) {
         if (is_in_the_way(occurrence.task) && transition_.is_applicable(occurrence.task, states_[state])) {
             successors.push_back(execute(state, network, occurrence));
@@ -105,8 +106,7 @@ void Progression::choose_actions(StateId state, NetworkId network) {
         return;
     }
     if (stubborn_set_ && unconstrained_.size() > 1) {
-        networks_->ordered_tasks(network, ordered_tasks_);
-        const auto found = stubborn_set_->find(ordered_tasks_, states_[state], unconstrained_);
+        const auto found = stubborn_set_->find(ordered_tasks(network), states_[state], unconstrained_);
         if (found && (!compound_ || found->size() <= live_methods_.size())) {
             live_methods_.clear();
             to_execute_.assign(found->begin(), found->end());
@@ -135,11 +135,12 @@ void Progression::find_live_methods(StateId state) {
 
 NodeView Progression::view(StateId state, NetworkId network) {
     if (!networks_->are_totally_ordered()) {
-        networks_->ordered_tasks(network, ordered_tasks_);
+        ordered_tasks(network);
         return {states_[state], ordered_tasks_.tasks, networks_->bound(network), false, ordered_tasks_.predecessors};
     }
     ordered_tasks_.tasks.clear();
     networks_->tasks(network, ordered_tasks_.tasks);
+    work_ += ordered_tasks_.tasks.size();
     return {states_[state], ordered_tasks_.tasks, networks_->bound(network), true, {}};
 }
 
@@ -178,6 +179,7 @@ Successor Progression::execute(StateId state, NetworkId network, const Occurrenc
 StateId Progression::keep_relevant(NetworkId network) {
     if (relevant_facts_) {
         const auto relevant = relevant_facts_->of(*networks_, network);
+        work_ += networks_->are_totally_ordered() ? 0 : networks_->size(network);
         for (std::size_t word = 0; word < next_.size(); ++word) {
             next_[word] &= relevant[word];
         }

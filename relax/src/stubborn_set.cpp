@@ -22,6 +22,7 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
                                                              std::span<const std::uint64_t> state,
                                                              std::span<const Occurrence> unconstrained) {
     turn_round(network, successors_);
+    work_ += network.tasks.size() + network.predecessors.size();
     occurring_.clear();
     for (const TaskId task : network.tasks) {
         occurring_.push_back(&profiles_[task]);
@@ -82,6 +83,7 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
         if (concerns(compounds_, member, state)) {
             return false;
         }
+        work_ += network.tasks.size();
         for (std::uint32_t other = 0; other < network.tasks.size(); ++other) {
             if (has(is_member_, other) || has(is_after_, other) || !concerns(*occurring_[other], member, state)) {
                 continue;

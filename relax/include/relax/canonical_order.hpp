@@ -70,11 +70,14 @@ public:
     // Returns the old index for each new one; valid until the next call. Throws Stopped.
     std::span<const std::uint32_t> of(const OrderedTasks& network);
 
+    // How many occurrences, pairs of the order and words of it have been looked at so far, again and again.
+    std::uint64_t work() const { return work_; }
+
 private:
     void colour(const OrderedTasks& network);
     void refine(const OrderedTasks& network);
     void sort();
-    bool are_twins(const OrderedTasks& network, std::uint32_t left, std::uint32_t right) const;
+    bool are_twins(const OrderedTasks& network, std::uint32_t left, std::uint32_t right);
 
     Limits& limits_;
     std::vector<std::uint32_t> order_;
@@ -83,6 +86,9 @@ private:
     std::vector<std::uint64_t> from_predecessors_;
     std::vector<std::uint64_t> from_successors_;
     std::vector<std::uint64_t> sorted_;
+    OrderedTasks successors_;        // the network's order turned round
+    bool knows_successors_ = false;  // they are made for the first pair that needs them
+    std::uint64_t work_ = 0;
 };
 
 }  // namespace relax

@@ -22,6 +22,9 @@ public:
     // Whether it should be asked about the next network: rarely, where it has hardly ever told anything.
     bool is_worth_asking();
 
+    // How many tasks and words of their order it has looked at so far.
+    std::uint64_t work() const { return work_; }
+
 private:
     bool can_end(const OrderedTasks& network, MacroId last);
 
@@ -34,6 +37,7 @@ private:
     std::uint64_t networks_ = 0;
     std::uint64_t asked_ = 0;
     std::uint64_t impossible_ = 0;
+    std::uint64_t work_ = 0;
 };
 
 }  // namespace relax

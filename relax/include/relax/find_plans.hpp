@@ -9,6 +9,7 @@
 
 #include "relax/adaptive_heuristic.hpp"
 #include "relax/ending.hpp"
+#include "relax/forced_circle.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
@@ -39,7 +40,8 @@ public:
     // Search on until `work` says so much, or to the end; false: there is more to do. Several searches take turns that
     // way (see Portfolio). Throws as `run` does.
     bool advance(std::uint64_t work);
-    // What it has done so far, in operators looked at or their worth.
+    // What it has done so far, in operators of heuristics looked at or their worth; nodes cost the more, the larger
+    // their networks are.
     std::uint64_t work() const;
     // Plans are wanted from now on only if they cost less.
     void set_upper_bound(Cost bound) { options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound)); }
@@ -79,6 +81,7 @@ private:
     SearchStatistics& statistics_;
     Progression progression_;
     std::optional<Ending> ending_;
+    ForcedCircle circle_;
     std::vector<AdaptiveHeuristic> heuristics_;
     DuplicateRegistry nodes_;
     SegmentedArray<Cost> guides_;  // by NodeId: the estimate of a heuristic that is not admissible
@@ -89,6 +92,7 @@ private:
     bool is_torn_ = false;  // in the middle of an expansion, where a node is in no list
     std::vector<Successor> successors_;
     std::vector<Successor> forced_;
+    std::uint64_t decided_ = 0;  // nodes expanded that had several successors, or looked so
 };
 
 }  // namespace relax

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "relax/forced_circle.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
@@ -58,6 +59,7 @@ private:
     std::optional<Cost> least_h_;
     std::optional<NodeId> goal_;  // of the cheapest plan so far
     std::uint64_t most_evaluations_;
+    ForcedCircle circle_;
     std::vector<Successor> successors_;
 };
 

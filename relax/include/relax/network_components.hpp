@@ -28,6 +28,9 @@ public:
     // `draft`. Throws Stopped.
     ComponentId intern(const OrderedTasks& draft, std::vector<std::uint32_t>* order);
 
+    // As `CanonicalOrder::work`.
+    std::uint64_t work() const { return canonical_.work() + work_; }
+
     std::uint32_t size(ComponentId id) const { return records_[id].size; }
     // How many have no predecessors: they come first.
     std::uint32_t unconstrained(ComponentId id) const { return records_[id].unconstrained; }
@@ -63,6 +66,7 @@ private:
     CanonicalOrder canonical_;
     std::vector<std::uint32_t> place_;  // in the canonical order, by index in the draft
     std::vector<std::uint64_t> form_;
+    std::uint64_t work_ = 0;  // besides finding orders
 };
 
 }  // namespace relax

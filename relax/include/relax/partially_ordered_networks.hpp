@@ -29,6 +29,7 @@ public:
     NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
     Cost bound(NetworkId network) const override { return records_[network].bound; }
     std::uint32_t size(NetworkId network) const override { return records_[network].size; }
+    std::uint64_t work() const override { return work_ + components_.work(); }
 
 private:
     struct Record {
@@ -82,6 +83,7 @@ private:
     OrderedTasks part_;
     // The network being built.
     std::vector<ComponentId> list_;
+    std::uint64_t work_ = 0;  // besides making components
 };
 
 }  // namespace relax

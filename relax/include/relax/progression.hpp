@@ -73,8 +73,12 @@ public:
     // The network's tasks and their order; valid until the next call.
     const OrderedTasks& ordered_tasks(NetworkId network) {
         networks_->ordered_tasks(network, ordered_tasks_);
+        work_ += ordered_tasks_.predecessors.size();
         return ordered_tasks_;
     }
+
+    // What the sizes of networks have cost so far, in tasks and words of their order that were looked at.
+    std::uint64_t work() const { return work_ + networks_->work() + (stubborn_set_ ? stubborn_set_->work() : 0); }
 
     const StateRegistry& states() const { return states_; }
     TaskNetworks& networks() { return *networks_; }
@@ -108,6 +112,7 @@ private:
     std::vector<MethodId> live_methods_;
     std::vector<Occurrence> to_execute_;
     StateBits next_;
+    std::uint64_t work_ = 0;  // of looking at networks
 };
 
 }  // namespace relax

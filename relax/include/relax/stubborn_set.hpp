@@ -36,6 +36,9 @@ public:
     std::optional<std::span<const Occurrence>> find(const OrderedTasks& network, std::span<const std::uint64_t> state,
                                                     std::span<const Occurrence> unconstrained);
 
+    // How many tasks and words of their order it has looked at so far.
+    std::uint64_t work() const { return work_; }
+
 private:
     bool close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed);
     bool concerns(const TaskProfile& other, std::uint32_t member, std::span<const std::uint64_t> state) const;
@@ -57,6 +60,7 @@ private:
     std::vector<std::uint64_t> is_member_;  // a row
     std::vector<std::uint64_t> is_after_;   // a row: what is ordered after a member
     std::vector<Occurrence> found_;
+    std::uint64_t work_ = 0;
 };
 
 }  // namespace relax

@@ -62,6 +62,10 @@ public:
     // No state that can be reached lets the network's actions be executed.
     virtual bool is_impossible(NetworkId /*network*/) const { return false; }
 
+    // What it has taken so far to make networks, in tasks and words of their order that were looked at; 0 where that
+    // does not grow with their size.
+    virtual std::uint64_t work() const { return 0; }
+
     bool is_empty(NetworkId network) const { return size(network) == 0; }
 };
 
