@@ -4,13 +4,15 @@
 PYTHON ?= python3
 VENV := .venv
 RUN := $(VENV)/bin/python
-PIP := $(RUN) -m pip --disable-pip-version-check --quiet
+PIP := $(RUN) -m pip --disable-pip-version-check
 # Directories are listed, too: their time changes when a file is added or removed.
 CORE_SOURCES := $(shell find relax)
 # The sessions of noxfile.py run in this environment here, not in ones of their own.
 NOX := PATH="$(CURDIR)/$(VENV)/bin:$$PATH" $(RUN) -m nox --no-venv --sessions
 HYPOTHESIS_PROFILE := $(if $(CI),ci,dev)
 AV := domains/av/domain.hddl domains/av/p1.hddl
+
+SHELL := bash
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test lint format docs core-test benchmark clean check-python check-compiler
@@ -25,19 +27,19 @@ demo: $(VENV)/.installed  ## plan for a vehicle that avoids, ignores and seeks r
 	@$(RUN) -m statehtn plan $(AV) --attitude seeking --alpha 0.9 && echo
 	@$(RUN) examples/demo.py $(AV)
 
-test: $(VENV)/.installed  ## run the whole test suite (with more random examples where CI is set)
+test: $(VENV)/.installed $(VENV)/.test-tools  ## run the whole test suite (with more random examples where CI is set)
 	$(RUN) -m pytest -n auto --hypothesis-profile=$(HYPOTHESIS_PROFILE) $(PYTEST_OPTIONS)
 
-lint: $(VENV)/.installed $(VENV)/.lint-tools  ## check style, types, layers and formatting
+lint: $(VENV)/.installed $(VENV)/.test-tools $(VENV)/.lint-tools $(VENV)/.nox-tools  ## check style, types, layers and formatting
 	$(NOX) lint
 
-format: $(VENV)/.lint-tools  ## format the Python and C++ sources
+format: $(VENV)/.lint-tools $(VENV)/.nox-tools  ## format the Python and C++ sources
 	$(NOX) format
 
-docs: $(VENV)/.docs-tools  ## build the documentation as a site that needs no network: site/index.html
+docs: $(VENV)/.docs-tools $(VENV)/.nox-tools  ## build the documentation as a site that needs no network: site/index.html
 	$(NOX) docs
 
-core-test: $(VENV)/.lint-tools  ## build the core without Python, warnings as errors, and run its tests under sanitizers
+core-test: $(VENV)/.build-tools $(VENV)/.nox-tools  ## build the core without Python, warnings as errors, and run its tests under sanitizers
 	$(NOX) core
 
 benchmark: $(VENV)/.installed  ## time the problems of the paper
@@ -50,24 +52,26 @@ clean:  ## remove everything that was built, the virtual environment included
 
 $(VENV)/.created: | check-python
 	$(PYTHON) -m venv $(VENV)
-	$(PIP) install --upgrade 'pip>=25.1'
+	@$(PIP) install --quiet --upgrade 'pip>=25.1'
 	@touch $@
 
-$(VENV)/.build-tools: pyproject.toml $(VENV)/.created
-	$(PIP) install --group build
+# A dependency group of pyproject.toml.
+$(VENV)/.%-tools: pyproject.toml $(VENV)/.created
+	$(PIP) install --quiet --group $*
 	@touch $@
+
+# Of what pip and ninja say, only ninja's steps are shown, as "[12/90] hmax.cpp": in a terminal each in place of the one
+# before, else every tenth part of them.
+STEPS := awk -F '[][/ ]+' '/^ *\[[0-9]+\/[0-9]+\] / { part = int(10 * $$2 / $$3); sub(/\.o$$/, "", $$NF); step = "[" $$2 "/" $$3 "] " $$NF; \
+  if (terminal) printf "\r\033[K%s", step; else if (part > shown) print step; shown = part; fflush() } \
+  END { if (terminal) print "" }'
 
 $(VENV)/.installed: pyproject.toml $(CORE_SOURCES) $(VENV)/.build-tools | check-compiler
 	@echo "building the core; the first time this takes a minute or two"
-	$(PIP) install --no-build-isolation --editable '.[test]'
-	@touch $@
-
-$(VENV)/.lint-tools: pyproject.toml $(VENV)/.build-tools
-	$(PIP) install --group lint
-	@touch $@
-
-$(VENV)/.docs-tools: pyproject.toml $(VENV)/.build-tools
-	$(PIP) install --group docs --group lint
+	@set -o pipefail; \
+	$(PIP) install --verbose --no-build-isolation --editable . 2>&1 | tee $(VENV)/build.log | $(STEPS) terminal=$$(test -t 1 && echo 1) || { \
+	  tail -n 40 $(VENV)/build.log >&2; \
+	  echo "error: the core was not built; all that was said stands in $(VENV)/build.log" >&2; exit 1; }
 	@touch $@
 
 # Each check says in one line what is missing and how to get it.

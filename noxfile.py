@@ -100,5 +100,5 @@ def tidy(session: nox.Session) -> None:
 @nox.session(python=["3.11", "3.12", "3.13", "3.14"])
 def tests(session: nox.Session) -> None:
     """Install the package and run the test suite with one version of Python."""
-    session.install(".[test]")
+    session.install(".", *nox.project.dependency_groups(PROJECT, "test"))
     session.run("pytest", *session.posargs)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+
 from hypothesis import HealthCheck, settings
 from hypothesis.vendor.pretty import RepresentationPrinter, for_type_by_name
 
@@ -13,6 +15,11 @@ settings.register_profile("dev", max_examples=30, deadline=None, suppress_health
 settings.register_profile("ci", max_examples=100, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
 settings.load_profile("dev")
+
+# A shell starts its background jobs with Ctrl-C ignored, and so does CI; all processes that they start inherit that. The
+# tests that send SIGINT, to themselves or to commands that they start, expect what a terminal gives.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def show_problem(problem: Problem, printer: RepresentationPrinter, _cycle: bool) -> None:
