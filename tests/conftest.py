@@ -16,8 +16,8 @@ settings.register_profile("ci", max_examples=100, deadline=None, derandomize=Tru
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
 settings.load_profile("dev")
 
-# A shell starts its background jobs with Ctrl-C ignored, and so does CI; all processes that they start inherit that. The
-# tests that send SIGINT, to themselves or to commands that they start, expect what a terminal gives.
+# A shell starts its background jobs with Ctrl-C ignored, and so does CI; what they start inherits that. The tests that
+# send SIGINT, to themselves or to commands that they start, expect what a terminal gives.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 

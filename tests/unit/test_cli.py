@@ -97,7 +97,7 @@ def test_a_signal_ends_in_a_result(files: Files, number: signal.Signals) -> None
     wait_until_signals_are_caught(process)
     time.sleep(1)
     process.send_signal(number)
-    output, errors = process.communicate(timeout=5)
+    output, errors = process.communicate(timeout=30)
     assert process.returncode == 130
     assert errors == ""
     found = json.loads(output)
