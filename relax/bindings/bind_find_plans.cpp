@@ -63,6 +63,9 @@ relax::SearchResult find_plans(const relax::GroundProblem& problem, std::vector<
     if (costs.size() != problem.action_count()) {
         throw std::invalid_argument("there must be one cost for each action");
     }
+    if (options.algorithm != relax::SearchAlgorithm::Greedy && !relax::is_admissible(options.heuristic)) {
+        throw std::invalid_argument("the heuristic must be admissible");
+    }
     relax::SearchStatistics statistics;
     std::function<void()> watch;
     if (!progress.is_none()) {

@@ -4,7 +4,6 @@
 #include <limits>
 #include <new>
 #include <ranges>
-#include <stdexcept>
 #include <utility>
 
 #include "relax/plan_trace.hpp"
@@ -40,7 +39,7 @@ FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, cons
     if (options.check_endings && !progression_.networks().are_totally_ordered()) {
         ending_.emplace(problem, limits);
     }
-    const bool asks_always = !options.ask_adaptively || !is_admissible(options.heuristic);
+    const bool asks_always = !options.ask_adaptively;
     heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
     for (const HeuristicKind kind : options.more_heuristics) {
         heuristics_.emplace_back(make_heuristic(kind, problem, costs_, limits), asks_always);
@@ -84,7 +83,7 @@ std::uint64_t FindPlans::work() const {
 // No plan that is wanted costs less than this: each that was not found goes through an open node. In the middle of an
 // expansion the open list is not complete.
 Cost FindPlans::proven() const {
-    const Cost wanted = options_.upper_bound.value_or(kDeadEnd);
+    const Cost wanted = options_.upper_bound.value_or(leaves_out_ ? kMostCost : kDeadEnd);
     const Cost by_nodes = is_torn_ ? 0 : std::min(open_bound(), wanted);
     return std::max(by_nodes, std::min(statistics_.lower_bound.value_or(0), wanted));
 }
@@ -104,7 +103,7 @@ SearchResult FindPlans::result() {
         statistics_.best = result.cost;
         statistics_.lower_bound = std::min(bound, *result.cost);
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-    } else if (!is_done_ || stop_) {
+    } else if (!is_done_ || stop_ || (leaves_out_ && !options_.upper_bound)) {
         statistics_.lower_bound = bound;
         result.status = stop_ ? status_of(*stop_) : SearchStatus::GaveUp;
     } else {
@@ -117,9 +116,6 @@ SearchResult FindPlans::result() {
 
 void FindPlans::start() {
     const NodeId root = nodes_.add(progression_.initial_state(), progression_.initial_network());
-    if (!is_admissible(options_.heuristic)) {
-        guides_.push_back(0);
-    }
     push(root);
 }
 
@@ -188,11 +184,7 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
             node.h = kDeadEnd;
             return false;
         }
-        if (is_admissible(options_.heuristic)) {
-            node.h = std::max(node.h, *h);
-        } else {
-            guides_[id] = *h;
-        }
+        node.h = std::max(node.h, *h);
         if (is_too_dear(node)) {
             return false;
         }

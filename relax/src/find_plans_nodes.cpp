@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "relax/find_plans.hpp"
 #include "relax/tdg_bound.hpp"
@@ -18,13 +17,9 @@ constexpr Cost kDeadEnd = kNoDecomposition;
 // Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.
 std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
-    const Cost g = nodes_[parent].g + successor.cost;
-    if (g >= kDeadEnd) {
-        throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
-    }
+    const Cost g = add_bounds(nodes_[parent].g, successor.cost);
     const TaskNetworks& networks = progression_.networks();
-    const Cost bound = networks.bound(successor.network);
-    if (bound >= kDeadEnd || networks.is_impossible(successor.network)) {
+    if (networks.is_impossible(successor.network) || is_beyond(g, networks.bound(successor.network))) {
         return std::nullopt;
     }
     const auto known = nodes_.find(successor.state, successor.network);
@@ -33,9 +28,6 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
     }
     const NodeId id =
         known ? nodes_.replace(*known, successor.network) : nodes_.add(successor.state, successor.network);
-    if (guides_.size() < nodes_.size() && !is_admissible(options_.heuristic)) {
-        guides_.push_back(guides_[known.value_or(parent)]);
-    }
     SearchNode& node = nodes_[id];
     node.reach(parent, g, successor.step);
     if (networks.is_empty(node.network)) {
@@ -70,20 +62,27 @@ Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor
     return bound;
 }
 
+// Whether nothing is left to be found with this much paid and at least this much to pay: it is a dead end, or costs
+// more than can be told apart.
+bool FindPlans::is_beyond(Cost g, Cost h) {
+    const Cost f = add_bounds(g, h);
+    leaves_out_ = leaves_out_ || f == kMostCost;
+    return f >= kMostCost;
+}
+
 // No plan through this node is better than what is known.
-bool FindPlans::is_too_dear(const SearchNode& node) const {
+bool FindPlans::is_too_dear(const SearchNode& node) {
     const Cost f = add_bounds(node.g, node.h);
-    return f >= kDeadEnd || (options_.upper_bound && f >= *options_.upper_bound) ||
+    return is_beyond(node.g, node.h) || (options_.upper_bound && f >= *options_.upper_bound) ||
            (statistics_.best && f >= *statistics_.best);
 }
 
 Cost FindPlans::priority(NodeId id) const {
     const SearchNode& node = nodes_[id];
-    const Cost estimate = is_admissible(options_.heuristic) ? node.h : std::max(node.h, guides_[id]);
     if (options_.algorithm == SearchAlgorithm::AStar) {
-        return node.g + estimate;
+        return node.g + node.h;
     }
-    const double weighted = std::ceil(options_.weight * static_cast<double>(estimate));
+    const double weighted = std::ceil(options_.weight * static_cast<double>(node.h));
     return add_bounds(node.g, weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "relax/plan_trace.hpp"
@@ -56,7 +55,7 @@ SearchResult GreedySearch::run() {
     } else if (stop) {
         result.status = status_of(*stop);
         statistics_.lower_bound = proven;
-    } else if (statistics_.evaluated >= most_evaluations_) {
+    } else if (leaves_out_ || statistics_.evaluated >= most_evaluations_) {
         result.status = SearchStatus::GaveUp;
         statistics_.lower_bound = proven;
     } else {
@@ -147,9 +146,10 @@ std::optional<Cost> GreedySearch::evaluate(NodeId id) {
 // Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.
 std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
-    const Cost g = nodes_[parent].g + successor.cost;
-    if (g >= kNoDecomposition) {
-        throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
+    const Cost g = add_bounds(nodes_[parent].g, successor.cost);
+    if (g >= kMostCost) {
+        leaves_out_ = true;
+        return std::nullopt;
     }
     if (const auto known = nodes_.find(successor.state, successor.network)) {
         if (g < nodes_[*known].g) {  // a cheaper way; what comes after it need not be seen again

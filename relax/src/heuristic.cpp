@@ -50,7 +50,8 @@ public:
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = slack_.evaluate(node);
-        return slack && node.tdg_bound < kNoDecomposition ? std::optional(node.tdg_bound + *slack) : std::nullopt;
+        return slack && node.tdg_bound < kNoDecomposition ? std::optional(add_bounds(node.tdg_bound, *slack))
+                                                          : std::nullopt;
     }
 
     std::uint64_t work() const override { return slack_.work(); }

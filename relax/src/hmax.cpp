@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "relax/cost.hpp"
+
 namespace relax {
 
 HMax::HMax(const RelaxedModel& model, Limits& limits)
@@ -68,7 +70,7 @@ std::optional<Cost> HMax::run(const RelaxedTask& task, std::span<const Cost> cos
 Cost HMax::lower(const RelaxedTask& task, std::span<const OperatorId> operators, std::span<const Cost> costs) {
     level_ = 0;
     const auto offer_adds = [&](OperatorId op) {
-        const Cost cost_of_it = operators_[op].supporter_cost + costs[task.owner(op)];
+        const Cost cost_of_it = add_bounds(operators_[op].supporter_cost, costs[task.owner(op)]);
         for (const RelaxedFact made : task.adds(op)) {
             offer(made, cost_of_it);
         }
@@ -135,7 +137,7 @@ void HMax::reach(const RelaxedTask& task, OperatorId op, RelaxedFact fact, Cost 
     OperatorState& state = operators_[op];
     state.supporter = fact;
     state.supporter_cost = cost_of_it;
-    const Cost made_for = cost_of_it + costs[task.owner(op)];
+    const Cost made_for = add_bounds(cost_of_it, costs[task.owner(op)]);
     for (const RelaxedFact made : task.adds(op)) {
         offer(made, made_for);
     }

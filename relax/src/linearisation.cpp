@@ -26,7 +26,7 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
         }
         progression_.expand(nodes_[here].state, nodes_[here].network, successors_);
         for (const Successor& successor : successors_) {
-            reach(here, nodes_[here].g + successor.cost, successor);
+            reach(here, add_bounds(nodes_[here].g, successor.cost), successor);
         }
     }
     for (const NodeId node : met_) {
@@ -36,6 +36,10 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
 }
 
 void Linearisation::reach(NodeId from, Cost g, const Successor& successor) {
+    if (g >= kMostCost) {
+        leaves_out_ = true;
+        return;
+    }
     const auto known = nodes_.find(successor.state, successor.network);
     const NodeId id = known ? *known : nodes_.add(successor.state, successor.network);
     if (!known) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "relax/cost.hpp"
+
 namespace relax {
 
 LmCut::LmCut(const RelaxedModel& model, Limits& limits)
@@ -31,7 +33,7 @@ std::optional<Cost> LmCut::run(const RelaxedTask& task) {
             ++rounds_;
             mark_goal_zone(task);
             find_cut(task, left);
-            total += take_off_cut();
+            total = add_bounds(total, take_off_cut());
             left = hmax_.lower(task, changed_, costs_);
         }
     } catch (const Stopped&) {

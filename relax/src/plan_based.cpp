@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "relax/plan_trace.hpp"
@@ -74,6 +73,9 @@ SearchResult PlanBased::run() {
         result.status = stop ? SearchStatus::Solved : SearchStatus::Optimal;
     } else if (stop) {
         result.status = status_of(*stop);
+    } else if ((leaves_out_ || linearisation_.leaves_out()) && !options_.upper_bound) {
+        statistics_.lower_bound = kMostCost;
+        result.status = SearchStatus::GaveUp;
     } else {
         statistics_.lower_bound.reset();
         result.status = SearchStatus::Unsolvable;
@@ -153,8 +155,12 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
         ++statistics_.dead_ends;
         return;
     }
-    if (f >= kNoDecomposition) {
-        throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
+    if (f >= kMostCost) {
+        leaves_out_ = true;
+        return;
+    }
+    if (options_.upper_bound && f >= *options_.upper_bound) {
+        return;
     }
     open_.push(static_cast<NodeId>(nodes_.size()), f, h, static_cast<std::uint32_t>(tasks_.tasks.size()));
     nodes_.push_back({network, parent, step});
@@ -167,7 +173,7 @@ std::optional<StopReason> PlanBased::execute(NodeId node) {
     std::optional<StopReason> stop;
     auto order = linearisation_.find(nodes_[node].network, stop);
     if (order) {
-        if (!solution_ || order->cost < solution_->cost) {
+        if (order->cost < (solution_ ? solution_->cost : options_.upper_bound.value_or(kNoDecomposition))) {
             solution_ = {node, order->cost, std::move(order->steps)};
             statistics_.best = solution_->cost;
         }

@@ -131,7 +131,7 @@ SearchResult Portfolio::gather(Member& ended) {
     if (result.cost) {
         statistics_.lower_bound = std::min(bound, *result.cost);
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-    } else if (is_stopped) {
+    } else if (result.status != SearchStatus::Unsolvable) {
         statistics_.lower_bound = bound;
         result.status = stop_ ? status_of(*stop_) : result.status;
     } else {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "relax/plan_trace.hpp"
@@ -77,7 +76,8 @@ TopPlansResult TopPlans::run() {
         result.stop = StopReason::MemoryLimit;
     }
     const Limits::Suspension suspension(limits_);
-    result.is_all = !result.stop && (plans_.size() < options_.count || (open_.is_empty() && !leaves_out_));
+    result.is_all =
+        !result.stop && ((plans_.size() < options_.count && !is_cut_) || (open_.is_empty() && !leaves_out_));
     if (result.is_all) {
         statistics_.lower_bound.reset();
         statistics_.proven = plans_.size();
@@ -108,6 +108,7 @@ std::optional<StopReason> TopPlans::search() {
             continue;
         }
         if (priority(way) > entry.priority) {
+            is_cut_ = is_cut_ || priority(way) >= kMostCost;
             push(entry.node);
             continue;
         }
@@ -143,14 +144,12 @@ void TopPlans::expand(WayId id) {
 
 void TopPlans::generate(WayId parent, const Successor& successor) {
     ++statistics_.generated;
-    const Cost g = ways_[parent].g + successor.cost;
-    if (g >= kDeadEnd) {
-        throw std::overflow_error("the costs of a plan add up to more than 2^62 units");
-    }
+    const Cost g = add_bounds(ways_[parent].g, successor.cost);
     const PairId pair = find_pair(successor.state, successor.network);
     pairs_[pair].h = std::max(pairs_[pair].h, cheap_bound(pairs_[ways_[parent].pair], successor));
     if (const Cost f = add_bounds(g, pairs_[pair].h); f >= enough()) {
         leaves_out_ = leaves_out_ || f < kDeadEnd;
+        is_cut_ = is_cut_ || f == kMostCost;
         return;
     }
     const ActionListId actions = list_after(parent, successor.step);
@@ -226,7 +225,7 @@ void TopPlans::note_proven(Cost bound) {
 }
 
 // The priority from which nothing that is open is worth a look.
-Cost TopPlans::enough() const { return plans_.size() < options_.count ? kDeadEnd : ways_[plans_.back()].g; }
+Cost TopPlans::enough() const { return plans_.size() < options_.count ? kMostCost : ways_[plans_.back()].g; }
 
 // The list of the actions after a step. `tasks_` are those of the way's network.
 ActionListId TopPlans::list_after(WayId way, const SearchStep& step) {

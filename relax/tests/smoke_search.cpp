@@ -103,8 +103,7 @@ bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm 
     const relax::SearchResult result = relax::search(problem, {3, 5, 4}, options, limits, statistics);
     const bool optimal = result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{15};
     const bool is_exact = algorithm == relax::SearchAlgorithm::AStar || algorithm == relax::SearchAlgorithm::PlanBased;
-    const bool promises_nothing = !is_exact || !relax::is_admissible(heuristic);
-    const bool solved = promises_nothing && result.cost && *result.cost >= 15;
+    const bool solved = !is_exact && result.cost && *result.cost >= 15;
     const bool good = (optimal || solved) && !result.plan.empty() && statistics.lower_bound.value_or(99) <= 15;
     if (!good) {
         std::printf("wrong: ordered %d, heuristic %d, algorithm %d\n", ordered, static_cast<int>(heuristic),
@@ -145,7 +144,9 @@ int main() {
               relax::HeuristicKind::LmCut, relax::HeuristicKind::Add, relax::HeuristicKind::Ff}) {
             for (const auto algorithm :
                  {relax::SearchAlgorithm::AStar, relax::SearchAlgorithm::Weighted, relax::SearchAlgorithm::Greedy}) {
-                ++(solve(ordered, heuristic, algorithm) ? passed : failed);
+                if (relax::is_admissible(heuristic) || algorithm == relax::SearchAlgorithm::Greedy) {
+                    ++(solve(ordered, heuristic, algorithm) ? passed : failed);
+                }
             }
         }
         for (const auto heuristic : {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg}) {

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
     from statehtn.core.heuristics import HEURISTICS
-    from statehtn.core.search import SEARCHES, Progress
+    from statehtn.core.progress import Progress
+    from statehtn.core.stages import SEARCHES
     from statehtn.core.top_plans import TopProgress
     from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
     from statehtn.hddl.plan_format import read_plan, write_plan
@@ -106,7 +107,8 @@ _MODULES_FOR_LATER = {
     "build.cost_file": ("read_costs",),
     "build.cost_table": ("CostTable",),
     "core.heuristics": ("HEURISTICS",),
-    "core.search": ("SEARCHES", "Progress"),
+    "core.progress": ("Progress",),
+    "core.stages": ("SEARCHES",),
     "core.top_plans": ("TopProgress",),
     "hddl": ("HddlWarning", "read_hddl", "read_hddl_text", "write_hddl"),
     "hddl.plan_format": ("read_plan", "write_plan"),

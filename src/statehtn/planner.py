@@ -9,7 +9,9 @@ from dataclasses import replace
 
 from statehtn.core.grounding import Grounding, ground
 from statehtn.core.plan_based import search_plans
-from statehtn.core.search import Progress, SearchOutcome, improving_plans, last_of
+from statehtn.core.progress import Progress
+from statehtn.core.search import improving_plans, last_of
+from statehtn.core.staged_run import SearchOutcome
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import InternalError
 from statehtn.hddl import read_hddl

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from statehtn.core.heuristics import HEURISTICS, PORTFOLIO, WEIGHTED
+from statehtn.core.heuristics import HEURISTICS, PORTFOLIO, WEIGHTED, why_refused
 from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS
-from statehtn.core.search import SEARCHES
+from statehtn.core.stages import SEARCHES
 from statehtn.errors import UsageError
 from statehtn.risk import Attitude, Utility, utility_for
 
@@ -89,6 +89,8 @@ def mismatch(solver: str, heuristic: str | None, search: str) -> str | None:
     if solver == "plan" and heuristic not in (None, *PLAN_BASED_HEURISTICS):
         usable = " and ".join(PLAN_BASED_HEURISTICS)
         return f"the solver 'plan' has no state, which '{heuristic}' needs; its heuristics are {usable}"
+    if heuristic is not None and search != "greedy" and (reason := why_refused(heuristic, f"the search '{search}'")):
+        return reason
     if heuristic == PORTFOLIO and search not in PORTFOLIO_SEARCHES:
         return f"'{PORTFOLIO}' goes with the searches {' and '.join(PORTFOLIO_SEARCHES)}, not with '{search}'"
     return None

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.heuristics import ADMISSIBLE, why_refused
 from statehtn.core.top_plans import DISTINCT, TopOutcome, TopProgress, find_top_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import UsageError
@@ -23,8 +23,6 @@ from statehtn.top_result import RankedPlan, TopPlans
 
 TopProgressCallback = Callable[[TopProgress], None]
 
-TOP_HEURISTICS = tuple(name for name, info in HEURISTICS.items() if info.admissible)
-"""The heuristics that a search for the best plans can take."""
 DEFAULT_TOP_HEURISTIC = "potential"
 MOST_PLANS = 1_000_000_000
 SECONDS_TO_VALIDATE = 2.0
@@ -57,7 +55,9 @@ class TopQuery:
         if not 1 <= k <= MOST_PLANS:
             raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {k}")
         heuristic = heuristic or DEFAULT_TOP_HEURISTIC
-        for kind, name, known in (("distinct", distinct, DISTINCT), ("heuristic", heuristic, TOP_HEURISTICS)):
+        if reason := why_refused(heuristic, "the search for the best plans"):
+            raise UsageError(reason)
+        for kind, name, known in (("distinct", distinct, DISTINCT), ("heuristic", heuristic, ADMISSIBLE)):
             if name not in known:
                 raise UsageError(f"no such value of {kind} here: '{name}'; there are {', '.join(known)}")
         return TopQuery(k, utility, distinct, heuristic)

@@ -23,7 +23,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
-from statehtn.core.search import SearchSwitches
+from statehtn.core.switches import SearchSwitches
 from tests.benchmarks.search import Line, arguments, name_of, read_baseline, run_all
 from tests.benchmarks.search_case import Row
 from tests.benchmarks.search_summary import SHORTEST

@@ -100,7 +100,8 @@ def search(case: Case) -> dict[str, Any]:
     """Search in this process, and return fields of a `Row`."""
     from statehtn.core.grounding import ground
     from statehtn.core.heuristics import PORTFOLIO, HeuristicEvaluator
-    from statehtn.core.search import SearchSwitches, find_plans
+    from statehtn.core.search import find_plans
+    from statehtn.core.switches import SearchSwitches
     from statehtn.hddl import HddlWarning, read_hddl
     from statehtn.risk import utility_for
 

@@ -9,14 +9,13 @@ from hypothesis import strategies as st
 import statehtn
 from statehtn import Status, TopPlans, validate
 from statehtn.core.grounding import GroundingSwitches, ground
-from statehtn.core.search import SearchSwitches
+from statehtn.core.switches import SearchSwitches
 from statehtn.core.top_plans import find_top_plans
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.risk import Utility
-from statehtn.top_planner import TOP_HEURISTICS
 from tests.brute_force import LARGEST_NETWORK, GaveUp, all_plans, best_risk_costs
-from tests.differential.oracles import SECONDS, close_to
+from tests.differential.oracles import ADMISSIBLE, SECONDS, close_to
 from tests.strategies import grounding_switches, problems, utilities
 
 DISTINCT = ("sequence", "multiset")
@@ -103,7 +102,7 @@ def test_all_plans(distinct: str, problem: Problem, utility: Utility) -> None:
     problem=problems(),
     utility=utilities(),
     k=st.integers(1, 8),
-    heuristic=st.sampled_from(TOP_HEURISTICS),
+    heuristic=st.sampled_from(ADMISSIBLE),
     grounding=grounding_switches(),
     switch=st.sampled_from(
         ("tdg_bound", "inherit_h", "skip_dead_methods", "stubborn_sets", "forget_facts", "limits_ways")

@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from statehtn import Status, read_hddl_text, validate
 from statehtn.core.grounding import ground
-from statehtn.core.search import SearchSwitches, find_plans
+from statehtn.core.search import find_plans
+from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.risk import utility_for

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from statehtn.core.heuristics import HEURISTICS
-from statehtn.core.search import SearchSwitches
+from statehtn.core.switches import SearchSwitches
 from tests.benchmarks.ablation import ablation_table, choose, other_costs, variants
 from tests.benchmarks.growth import MEASURES, exponent_table, fit, points
 from tests.benchmarks.search import baseline_of

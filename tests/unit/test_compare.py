@@ -118,19 +118,19 @@ def test_a_grid_of_settings(tree: Path, tmp_path: Path, capsys: Capture) -> None
     for problem in ("p2", "p3"):
         (tree / f"total-order/Errands/{problem}.hddl").unlink()
     options = ["--domain", "*Errands", "--attitude", "averse", "neutral", "--alpha", "0.5", "0.9", "--repeat", "2"]
-    options += ["--heuristic", "ff", "blind", "--heuristic", "ff", "--search", "astar", "greedy"]
+    options += ["--heuristic", "lmcut", "blind", "--heuristic", "lmcut", "--search", "astar", "greedy"]
     assert compare(tree, *options, "--jobs", "2", "--output", str(output), "--quiet") == 0
     rows = rows_of(output)
     settings = {tuple(row[column] for column in KEY_COLUMNS[2:]) for row in rows}
     assert len(settings) == len(rows) == 3 * 2 * 2 * 2
-    assert ("averse", "0.9", "state/greedy", "ff", "2") in settings
+    assert ("averse", "0.9", "state/greedy", "lmcut", "2") in settings
     assert ("neutral", "", "state", "blind", "1") in settings
     assert all(float(row["log10_expected_utility"]) < 0 for row in rows if row["attitude"] == "averse")
     assert capsys.readouterr() == ("", "")
     lines = output.read_text()
     assert compare(tree, *options, "--output", str(output)) == 0
     assert output.read_text() == lines
-    assert "averse 0.9 state/greedy ff" in capsys.readouterr().out
+    assert "averse 0.9 state/greedy lmcut" in capsys.readouterr().out
 
 
 def test_it_goes_on_where_it_stopped(tree: Path, tmp_path: Path) -> None:

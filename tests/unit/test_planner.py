@@ -12,7 +12,7 @@ import time
 import pytest
 
 import statehtn
-from statehtn.core.search import SEARCHES
+from statehtn.core.stages import SEARCHES
 from statehtn.query import Query
 from tests.test_minimal import DOMAIN, PROBLEM
 
@@ -139,15 +139,19 @@ def test_unsolvable_is_a_value() -> None:
     assert "unsolvable" in str(result)
 
 
-@pytest.mark.parametrize("search", ["astar", "weighted", "greedy"])
+@pytest.mark.parametrize("search", statehtn.SEARCHES)
 @pytest.mark.parametrize("heuristic", statehtn.HEURISTICS)
 def test_every_registered_choice_finds_a_valid_plan(problem: statehtn.Problem, heuristic: str, search: str) -> None:
+    if search != "greedy" and not statehtn.HEURISTICS[heuristic].admissible:
+        with pytest.raises(statehtn.UsageError, match=f"'{heuristic}' may estimate more than is true.*greedy search"):
+            statehtn.plan(problem, heuristic=heuristic, search=search)
+        return
     result = statehtn.plan(problem, heuristic=heuristic, search=search)
     assert result.plan is not None
     assert result.heuristic == heuristic
     assert result.lower_bound is not None
     assert result.lower_bound <= (result.risk_cost or 0.0)
-    if search == "astar":
+    if search in ("astar", "anytime"):
         assert result.status is statehtn.Status.OPTIMAL
 
 

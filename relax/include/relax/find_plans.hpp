@@ -23,22 +23,22 @@
 namespace relax {
 
 // FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower
-// bound until they are popped (their parent's estimate, where the heuristic is not admissible); then the heuristics are
-// asked, one by one, and if f rises they are put back. Of nodes with the same state and networks of one form the best
-// is kept, and reopened when a cheaper way to it turns up.
+// bound until they are popped; then the heuristics are asked, one by one, and if f rises they are put back. Of nodes
+// with the same state and networks of one form the best is kept, and reopened when a cheaper way to it turns up.
 //
 // Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
 class FindPlans {
 public:
-    // `costs`: by ActionId, at least 0. `statistics` is kept up to date for whoever watches from `limits.poll`.
+    // `costs`: by ActionId, at least 0. The heuristics must be admissible. `statistics` is kept up to date for whoever
+    // watches from `limits.poll`.
     FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);  // throws Stopped
 
-    // Search to the end. Throws std::overflow_error if costs add up to more than fixed point can hold.
+    // Search to the end.
     SearchResult run();
 
     // Search on until `work` says so much, or to the end; false: there is more to do. Several searches take turns that
-    // way (see Portfolio). Throws as `run` does.
+    // way (see Portfolio).
     bool advance(std::uint64_t work);
     // What it has done so far, in operators of heuristics looked at or their worth; nodes cost the more, the larger
     // their networks are.
@@ -57,7 +57,7 @@ private:
     Cost proven() const;
     Cost enough() const;
     // Whether priorities are lower bounds.
-    bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar && is_admissible(options_.heuristic); }
+    bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar; }
     bool is_stale(const OpenList::Entry& entry) const;
     bool evaluate(NodeId id, Cost f);
     std::optional<Cost> ask(AdaptiveHeuristic& heuristic, NodeId id);
@@ -70,7 +70,8 @@ private:
     bool is_as_good(const SearchNode& known, Cost g, NetworkId network);
     Cost cheap_bound(const SearchNode& parent, const Successor& successor);
     Cost priority(NodeId id) const;
-    bool is_too_dear(const SearchNode& node) const;
+    bool is_beyond(Cost g, Cost h);
+    bool is_too_dear(const SearchNode& node);
     void push(NodeId id);
     Cost open_bound() const;
 
@@ -84,12 +85,12 @@ private:
     ForcedCircle circle_;
     std::vector<AdaptiveHeuristic> heuristics_;
     DuplicateRegistry nodes_;
-    SegmentedArray<Cost> guides_;  // by NodeId: the estimate of a heuristic that is not admissible
     OpenList open_;
     std::optional<NodeId> goal_;  // of the best plan so far
     std::optional<StopReason> stop_;
     bool is_done_ = false;
-    bool is_torn_ = false;  // in the middle of an expansion, where a node is in no list
+    bool is_torn_ = false;     // in the middle of an expansion, where a node is in no list
+    bool leaves_out_ = false;  // there may be plans that cost `kMostCost` or more
     std::vector<Successor> successors_;
     std::vector<Successor> forced_;
     std::uint64_t decided_ = 0;  // nodes expanded that had several successors, or looked so

@@ -58,6 +58,7 @@ private:
     bool explores_ = false;             // the next node comes from the type-based list
     std::optional<Cost> least_h_;
     std::optional<NodeId> goal_;  // of the cheapest plan so far
+    bool leaves_out_ = false;     // there may be plans that cost `kMostCost` or more
     std::uint64_t most_evaluations_;
     ForcedCircle circle_;
     std::vector<Successor> successors_;

@@ -31,6 +31,8 @@ public:
 
     // Returns the cheapest order, or nothing if there is none or `stop` says that a limit was reached.
     std::optional<Order> find(NetworkId network, std::optional<StopReason>& stop);
+    // Whether there may be orders that cost `kMostCost` or more; they were left out.
+    bool leaves_out() const { return leaves_out_; }
 
 private:
     void reach(NodeId from, Cost g, const Successor& successor);
@@ -42,6 +44,7 @@ private:
     SegmentedArray<std::uint32_t> seen_;  // by NodeId: the latest call that met the node, or kHopeless
     static constexpr std::uint32_t kHopeless = 0;
     std::uint32_t call_ = 0;
+    bool leaves_out_ = false;
     OpenList open_;
     std::vector<NodeId> met_;  // in this call
     std::vector<Successor> successors_;

@@ -30,12 +30,11 @@ namespace relax {
 // with the fewest methods. `SearchOptions::branches_over_all` tries every task, as the paper writes it.
 class PlanBased {
 public:
-    // `costs`: by ActionId, at least 0. Of the options, it reads the heuristic (Tdg or Blind) and those that
-    // name PlanBased.
+    // `costs`: by ActionId, at least 0. Of the options, it reads the heuristic (Tdg or Blind), the upper
+    // bound and those that name PlanBased.
     PlanBased(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);
 
-    // Throws std::overflow_error if costs add up to more than fixed point can hold.
     SearchResult run();
 
 private:
@@ -72,6 +71,7 @@ private:
     std::vector<bool> is_known_;  // by NetworkId: the closed list
     OpenList open_;
     std::optional<Solution> solution_;   // the best so far
+    bool leaves_out_ = false;            // there may be plans that cost `kMostCost` or more
     OrderedTasks tasks_;                 // of the network looked at
     std::vector<Occurrence> compounds_;  // likewise
 };

@@ -11,7 +11,7 @@
 namespace relax {
 
 // Run the search that the options name. `costs`: by ActionId, at least 0. `statistics` is kept up to date for whoever
-// watches from `limits.poll`. Throws std::overflow_error if costs add up to more than fixed point can hold.
+// watches from `limits.poll`.
 SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
                     SearchStatistics& statistics);
 

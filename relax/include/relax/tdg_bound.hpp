@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "relax/cost.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
@@ -15,13 +16,6 @@ namespace relax {
 // found by Knuth's generalisation of Dijkstra's algorithm (1977). `kNoDecomposition` where there is no finite
 // decomposition. Throws Stopped.
 std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits);
-
-inline constexpr Cost kNoDecomposition = Cost{1} << 62;
-
-// The sum of bounds, which stays `kNoDecomposition` once it is.
-inline Cost add_bounds(Cost left, Cost right) {
-    return left >= kNoDecomposition - right ? kNoDecomposition : left + right;
-}
 
 }  // namespace relax
 

@@ -72,7 +72,6 @@ public:
     TopPlans(const GroundProblem& problem, std::vector<Cost> costs, std::vector<std::optional<ActionLabel>> labels,
              const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
 
-    // Throws std::overflow_error if costs add up to more than fixed point can hold.
     TopPlansResult run();
 
 private:
@@ -130,7 +129,8 @@ private:
     IdTable way_table_;
     OpenList open_;
     std::vector<WayId> plans_;  // the cheapest that were found, the cheapest first
-    bool leaves_out_ = false;   // there may be more than those
+    bool leaves_out_ = false;   // there may be more than those ...
+    bool is_cut_ = false;       // ... that cost `kMostCost` or more
     std::vector<Successor> successors_;
     std::vector<TaskId> tasks_;
 };

@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from statehtn.cli.streams import emit
-from statehtn.core.heuristics import HEURISTICS
+from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
 from statehtn.core.plan_based import BRANCHES
-from statehtn.core.search import SEARCHES
+from statehtn.core.stages import SEARCHES
 from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.query import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
-from statehtn.top_planner import DEFAULT_TOP_HEURISTIC, TOP_HEURISTICS
+from statehtn.top_planner import DEFAULT_TOP_HEURISTIC
 
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
@@ -179,7 +179,12 @@ def _add_top(commands: argparse._SubParsersAction[_Parser]) -> None:
         help="plans differ in the sequence of their actions (default), or plans with the same actions in another order "
         "are one",
     )
-    search.add_argument("--heuristic", choices=TOP_HEURISTICS, help=f"default: {DEFAULT_TOP_HEURISTIC}")
+    search.add_argument(
+        "--heuristic",
+        choices=list(HEURISTICS),
+        metavar=f"{{{','.join(ADMISSIBLE)}}}",  # why it takes no others, the search says itself
+        help=f"default: {DEFAULT_TOP_HEURISTIC}",
+    )
     _add_limits(search)
     output = parser.add_argument_group("output")
     output.add_argument(

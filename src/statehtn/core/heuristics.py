@@ -87,6 +87,9 @@ HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
 )
 """The heuristics by name: whether each is admissible, consistent and safe, and a line about it with its source."""
 
+ADMISSIBLE = tuple(name for name, info in HEURISTICS.items() if info.admissible)
+"""Those that never estimate too much: what a search proves rests on that."""
+
 PORTFOLIO = "auto"
 """The name of no heuristic, but of three A* searches in turn, which share what they prove: with `tdg`, with `lmcut`,
 and with `potential-hmax`, `potential` and `lmcut` one after the other."""
@@ -94,6 +97,16 @@ and with `potential-hmax`, `potential` and `lmcut` one after the other."""
 
 WEIGHTED = "potential-hmax"
 """The heuristic of weighted search where none is named: it tells most for its time."""
+
+
+def why_refused(heuristic: str, search: str) -> str | None:
+    """Return why a search that proves something does not take a heuristic; None if it does."""
+    if heuristic not in HEURISTICS or HEURISTICS[heuristic].admissible:
+        return None
+    return (
+        f"'{heuristic}' may estimate more than is true, so that {search} could not keep what it promises; take one of "
+        f"{', '.join(ADMISSIBLE)}, or '{heuristic}' with greedy search"
+    )
 
 
 class HeuristicEvaluator:

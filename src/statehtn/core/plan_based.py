@@ -8,7 +8,8 @@ import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.pricing import price
-from statehtn.core.search import Progress, SearchOutcome, StagedRun
+from statehtn.core.progress import Progress
+from statehtn.core.staged_run import SearchOutcome, StagedRun
 from statehtn.limits import Limits
 from statehtn.risk import Utility
 
@@ -43,9 +44,6 @@ def search_plans(
         checks_preconditions: leave out networks in which a precondition cannot be met any more.
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
-
-    Raises:
-        UnsupportedError: see `find_plans`.
     """
     options = _relax.SearchOptions()
     options.algorithm = _relax.SearchAlgorithm.PlanBased

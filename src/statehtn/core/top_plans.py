@@ -12,9 +12,8 @@ import statehtn._relax as _relax
 from statehtn.core.grounding import STOPPED, Grounding
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.pricing import price
-from statehtn.core.search import TOO_DEAR, SearchSwitches
+from statehtn.core.switches import SearchSwitches
 from statehtn.core.trace import read_trace
-from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
 from statehtn.model.plan import Plan
 from statehtn.model.status import Status
@@ -109,11 +108,8 @@ def find_top_plans(
         heuristic: the name of an admissible heuristic in `HEURISTICS`.
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
-        switches: refinements to leave out (`adaptive` means nothing here).
+        switches: refinements to leave out (some mean nothing here: see `relax::TopPlansOptions`).
         limits_ways: keep at most k ways to every pair of a state and a network.
-
-    Raises:
-        UnsupportedError: see `find_plans`.
     """
     started = time.monotonic()
     prices = price(grounding.laws, utility)
@@ -121,7 +117,10 @@ def find_top_plans(
     options.count = k
     options.distinct = DISTINCT[distinct]
     options.limits_ways = limits_ways
-    options.search = _search_options(heuristic, switches)
+    search = _relax.SearchOptions()
+    search.heuristic = HEURISTICS[heuristic].kind
+    switches.apply(search)
+    options.search = search
 
     def cost(units: int | None) -> float | None:
         return None if units is None else prices.cost(units)
@@ -140,18 +139,15 @@ def find_top_plans(
             )
         )
 
-    try:
-        result = _relax.top_plans(
-            grounding.handle,
-            prices.units,
-            _labels(grounding),
-            options,
-            None if limits.deadline is None else limits.deadline - time.monotonic(),
-            None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
-            None if progress is None else report,
-        )
-    except OverflowError:
-        raise UnsupportedError(TOO_DEAR) from None
+    result = _relax.top_plans(
+        grounding.handle,
+        prices.units,
+        _labels(grounding),
+        options,
+        None if limits.deadline is None else limits.deadline - time.monotonic(),
+        None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
+        None if progress is None else report,
+    )
     statistics = result.statistics
     return TopOutcome(
         None if result.stop is None else STOPPED[result.stop],
@@ -164,18 +160,6 @@ def find_top_plans(
         statistics.evaluated,
         statistics.dead_ends,
     )
-
-
-def _search_options(heuristic: str, switches: SearchSwitches) -> _relax.SearchOptions:
-    """Return the options that this search shares with the others."""
-    options = _relax.SearchOptions()
-    options.heuristic = HEURISTICS[heuristic].kind
-    options.use_tdg_bound = switches.tdg_bound
-    options.inherit_h = switches.inherit_h
-    options.skip_dead_methods = switches.skip_dead_methods
-    options.use_stubborn_sets = switches.stubborn_sets
-    options.forget_facts = switches.forget_facts
-    return options
 
 
 def _labels(grounding: Grounding) -> list[int | None]:

@@ -9,14 +9,15 @@ from typing import Any
 
 from unified_planning.exceptions import UPUsageError
 
-from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
+from statehtn.core import heuristics as core_heuristics
+from statehtn.core.heuristics import PORTFOLIO
 from statehtn.interop.costs import CostParts
 from statehtn.limits import Limits
 from statehtn.query import Query
 from statehtn.risk import Attitude
 
 NAME = "statehtn"
-ADMISSIBLE = (PORTFOLIO, *(name for name, info in HEURISTICS.items() if info.admissible))
+ADMISSIBLE = (PORTFOLIO, *core_heuristics.ADMISSIBLE)
 """The heuristics that the engine takes: those with which it proves what it promises."""
 
 

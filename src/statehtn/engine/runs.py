@@ -10,7 +10,7 @@ from unified_planning.engines import LogMessage, PlanGenerationResult
 from unified_planning.engines.results import LogLevel, PlanGenerationResultStatus
 from unified_planning.exceptions import UPUsageError
 
-from statehtn.core.search import Progress
+from statehtn.core.progress import Progress
 from statehtn.engine.parameters import NAME, Parameters
 from statehtn.errors import InternalError, StateHtnError, UsageError
 from statehtn.interop.conversion import Conversion

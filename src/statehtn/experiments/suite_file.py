@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from statehtn.core.search import SEARCHES
+from statehtn.core.stages import SEARCHES
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import is_domain
 from statehtn.experiments.run import Grid, Instance, agents_of
