@@ -176,7 +176,11 @@ WRONG: list[tuple[Callable[[Deliveries], object], str]] = [
     # names
     (lambda d: d.build.type("place"), "there is a type 'place' already"),
     (lambda d: d.build.type("object"), "there is a type 'object' already"),
-    (lambda d: d.build.predicate("At"), "names are in lower case, such as 'at'"),
+    (lambda d: d.build.predicate("At"), "there is a predicate 'at' already, and 'At' differs in case only"),
+    (lambda d: d.build.action("GO"), "there is a task 'go' already, and 'GO' differs in case only"),
+    (lambda d: d.place.objects("X", "x"), "there is an object 'X' already, and 'x' differs in case only"),
+    (lambda d: d.build.type("Object"), "there is a type 'object' already"),
+    (lambda d: d.build.predicate("AND"), "is no word of HDDL such as 'and'"),
     (lambda d: d.build.predicate("and"), "is no word of HDDL such as 'and'"),
     (lambda d: d.build.task("a b"), "a name has no spaces"),
     (lambda d: d.build.task("a(b"), "a name has no spaces, parentheses"),

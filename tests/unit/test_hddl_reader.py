@@ -83,7 +83,7 @@ def courier() -> Problem:
 
 def test_declarations(courier: Problem) -> None:
     domain = courier.domain
-    assert domain.name == "courier"
+    assert domain.name == "Courier"
     assert domain.types.parents == {
         "walker": ("agent",),
         "van": ("agent",),
@@ -100,7 +100,7 @@ def test_declarations(courier: Problem) -> None:
 
 
 def test_method(courier: Problem) -> None:
-    read_method = courier.domain.methods["m-walk"]
+    read_method = courier.domain.methods["m-Walk"]
     assert read_method.parameters[0] == Parameter("?r", ("walker", "van"))
     assert (read_method.task, read_method.arguments) == ("go", ("?r", "?b"))
     assert read_method.precondition == And(

@@ -20,9 +20,9 @@ def source(text: str) -> Source:
     return Source(text, "d.hddl", LIMITS)
 
 
-def test_words_are_lower_case_and_comments_disappear() -> None:
+def test_words_are_as_written_and_comments_disappear() -> None:
     read = source("(Define (DOMAIN D) ; (not here\n\t(:Types a;b\n))")
-    assert read.tokens == ["(", "define", "(", "domain", "d", ")", "(", ":types", "a", ")", ")"]
+    assert read.tokens == ["(", "Define", "(", "DOMAIN", "D", ")", "(", ":Types", "a", ")", ")"]
     assert read.sections == [(2, 6), (6, 10)]
 
 

@@ -157,7 +157,7 @@ def test_names_that_hddl_does_not_have() -> None:
     problem = statehtn.from_unified_planning(made)
     text = statehtn.write_hddl(problem)
     assert statehtn.read_hddl_text(*text, strict=True) == problem
-    assert list(problem.all_objects) == ["o_1", "o_1-2", "x"]
+    assert list(problem.all_objects) == ["O_1", "o_1-2", "x"]
     conversion = Conversion.from_up(made)
     plan = statehtn.plan(conversion.problem).plan
     assert str(conversion.plan_to_up(plan).action_plan.actions[0]) == "Act(O 1, ?x)"

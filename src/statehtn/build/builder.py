@@ -29,8 +29,9 @@ from statehtn.model.formula import Combinable
 class ProblemBuilder(DomainBuilder):
     """Builds an HTN problem, call by call; each call checks what it is given and raises where it is wrong.
 
-    Names are in lower case. Types, predicates, functions, tasks and actions are declared before they are used, methods
-    last. `build` returns the immutable problem; the builder can go on afterwards, for the next one.
+    Names keep their case, and those of one kind must differ by more, as HDDL does not distinguish it. Types,
+    predicates, functions, tasks and actions are declared before they are used, methods last. `build` returns the
+    immutable problem; the builder can go on afterwards, for the next one.
 
     Args:
         name: the problem's name.

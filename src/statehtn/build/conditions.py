@@ -8,9 +8,9 @@ from statehtn.hddl.diagnostics import Diagnostics, Reporter
 from statehtn.hddl.expressions import parse_group
 from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.tokens import Source
-from statehtn.hddl.vocabulary import Vocabulary
+from statehtn.hddl.vocabulary import Vocabulary, scope_of
 from statehtn.limits import Limits
-from statehtn.model import Formula
+from statehtn.model import Formula, Parameter
 
 
 def read_condition(text: str, scope: Scope, declared: Declarations) -> Formula:
@@ -25,12 +25,15 @@ def read_condition(text: str, scope: Scope, declared: Declarations) -> Formula:
     vocabulary = Vocabulary()
     vocabulary.declare_types(declared.parents)
     vocabulary.objects.update({**declared.constants, **declared.objects})
+    vocabulary.declare("object", vocabulary.objects)
     vocabulary.predicates.update(declared.predicates)
+    vocabulary.declare("predicate", vocabulary.predicates)
+    variables = scope_of(Parameter(name, types) for name, types in scope.variables.items())
     try:
         source = Source(f"(define {text})", "condition", Limits())
         if len(source.sections) != 1:
             raise UsageError("expected one formula in parentheses")
         reporter = Reporter(source, Diagnostics(strict=True))
-        return FormulaReader(vocabulary, reporter).read(parse_group(source, source.sections[0][0]), scope.variables)
+        return FormulaReader(vocabulary, reporter).read(parse_group(source, source.sections[0][0]), variables)
     except StateHtnError as error:
         raise UsageError(f"the condition '{text}': {error.message}") from None

@@ -37,9 +37,7 @@ def read_costs(file: str | os.PathLike[str]) -> CostTable:
     entries = []
     for number, values in enumerate(tables, 1):
         table = KeyedTable(f"{path}: entry {number} of 'costs'", values)
-        entries.append(
-            CostEntry(table.place, table.text("action").lower(), _arguments(table), _law(table, path.parent))
-        )
+        entries.append(CostEntry(table.place, table.text("action"), _arguments(table), _law(table, path.parent)))
     return CostTable(tuple(entries))
 
 
@@ -49,7 +47,7 @@ def _arguments(table: KeyedTable) -> tuple[str, ...] | None:
         return None
     if not isinstance(given, list) or not all(isinstance(name, str) and name for name in given):
         table.complain("arguments", "a list of objects' names, or * for any", given)
-    return tuple(name.lower() for name in given)
+    return tuple(given)
 
 
 def _law(table: KeyedTable, folder: Path) -> CostLaw:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from statehtn.errors import InputError
 from statehtn.hddl.diagnostics import unknown
+from statehtn.hddl.spelling import Spellings
 from statehtn.model import Action, And, CostBlock, CostDistribution, CostLaw, Equals, Formula, Not, Problem
 from statehtn.model.costs import block_of
 from statehtn.model.formula import TRUE
@@ -19,8 +20,8 @@ class CostEntry:
 
     Args:
         place: the file and the number of the entry, for messages.
-        action: the action's name.
-        arguments: an object for each parameter, or `*` for any; None for all instances.
+        action: the action's name, in any case.
+        arguments: an object for each parameter, in any case, or `*` for any; None for all instances.
         law: of the cost.
     """
 
@@ -74,7 +75,9 @@ class CostTable:
         """
         domain = problem.domain
         by_action: dict[str, list[CostEntry]] = {}
-        for entry in self.entries:
+        names = Spellings(domain.actions), Spellings(problem.all_objects)
+        for given in self.entries:
+            entry = _as_declared(given, *names)
             _check(entry, problem, by_action.setdefault(entry.action, []))
             by_action[entry.action].append(entry)
         unit = (block_of(CostDistribution.certain(1)),) if domain.has_unit_costs else None
@@ -83,6 +86,14 @@ class CostTable:
             old = action.costs if unit is None else unit
             actions[name] = replace(action, costs=_blocks(action, by_action.get(name, []), old))
         return replace(problem, domain=replace(domain, actions=actions)) if self.entries else problem
+
+
+def _as_declared(entry: CostEntry, actions: Spellings, objects: Spellings) -> CostEntry:
+    """Return an entry with names as they are spelt in the problem; those that it does not know stay as they are."""
+    arguments = entry.arguments
+    if arguments is not None:
+        arguments = tuple(objects.find(name) or name for name in arguments)
+    return replace(entry, action=actions.find(entry.action) or entry.action, arguments=arguments)
 
 
 def _check(entry: CostEntry, problem: Problem, before: list[CostEntry]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from statehtn.build.names import not_declared
+from statehtn.build.names import Named, not_declared
 from statehtn.build.terms import Object, Term, name_of
 from statehtn.errors import UsageError
 from statehtn.model import (
@@ -48,14 +48,14 @@ class Scope:
 class Declarations:
     """What has been declared so far, by name, in order of declaration; `signatures` are those of tasks and actions."""
 
-    parents: dict[str, Types] = field(default_factory=dict)
-    constants: dict[str, str] = field(default_factory=dict)
-    objects: dict[str, str] = field(default_factory=dict)
-    predicates: dict[str, Signature] = field(default_factory=dict)
-    functions: dict[str, Signature] = field(default_factory=dict)
-    tasks: dict[str, Signature] = field(default_factory=dict)
-    actions: dict[str, Action] = field(default_factory=dict)
-    methods: dict[str, Method] = field(default_factory=dict)
+    parents: Named[Types] = field(default_factory=Named)
+    constants: Named[str] = field(default_factory=Named)
+    objects: Named[str] = field(default_factory=Named)
+    predicates: Named[Signature] = field(default_factory=Named)
+    functions: Named[Signature] = field(default_factory=Named)
+    tasks: Named[Signature] = field(default_factory=Named)
+    actions: Named[Action] = field(default_factory=Named)
+    methods: Named[Method] = field(default_factory=Named)
 
     @property
     def types(self) -> TypeHierarchy:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from statehtn.build.declarations import Declarations
-from statehtn.build.names import new_name
+from statehtn.build.names import Named, new_name
 from statehtn.build.networks import Occurrence
 from statehtn.build.terms import Object, Term
 from statehtn.errors import UsageError
@@ -47,7 +47,7 @@ class Type:
         """Declare objects of the domain, which its actions and methods may name; as `objects`."""
         return self._declare(names, self._declarations.constants)
 
-    def _declare(self, names: tuple[str, ...], known: dict[str, str]) -> tuple[Object, ...]:
+    def _declare(self, names: tuple[str, ...], known: Named[str]) -> tuple[Object, ...]:
         if len(self.names) > 1:
             raise UsageError(f"an object has one type, not a union such as {self}")
         taken = (("object", self._declarations.objects), ("constant", self._declarations.constants))

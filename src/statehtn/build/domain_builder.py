@@ -9,11 +9,12 @@ from types import MappingProxyType
 from statehtn.build.conditions import read_condition
 from statehtn.build.declarations import Declarations
 from statehtn.build.declared import NumericFunction, Predicate, Task, Type
-from statehtn.build.names import new_name, not_declared
+from statehtn.build.names import Named, new_name, not_declared
 from statehtn.build.networks import Occurrence, Ordering, network_of
 from statehtn.build.parts import CostPart, EffectPart, When, costs_of, effects_of
 from statehtn.build.terms import Object, checked_formula, checked_variables
 from statehtn.errors import UsageError
+from statehtn.hddl.cost_reader import TOTAL_COST
 from statehtn.model import (
     TRUE,
     Action,
@@ -25,6 +26,9 @@ from statehtn.model import (
 )
 from statehtn.model.formula import Combinable
 from statehtn.model.types import ROOT_TYPE
+
+_ROOT = Named({ROOT_TYPE: ()})
+_TOTAL = Named({TOTAL_COST: ()})
 
 
 class DomainBuilder:
@@ -41,7 +45,7 @@ class DomainBuilder:
             above: its supertype, or a union of them; `object` is above all.
         """
         declared = self._declared
-        new_name(name, "type", ("type", {*declared.parents, ROOT_TYPE}))
+        new_name(name, "type", ("type", declared.parents), ("type", _ROOT))
         if above is not None and not isinstance(above, Type):
             raise UsageError(f"a supertype is a type that type() has returned, found {above!r}")
         supertypes = (ROOT_TYPE,) if above is None else above.names
@@ -63,7 +67,7 @@ class DomainBuilder:
 
     def function(self, name: str, *parameters: Parameter) -> NumericFunction:
         """Declare a function with numbers as values, which `set_values` gives, for costs and probabilities."""
-        new_name(name, "function", ("function", {*self._declared.functions, "total-cost"}))
+        new_name(name, "function", ("function", self._declared.functions), ("function", _TOTAL))
         signature = self._signature(name, parameters)
         self._declared.functions[name] = signature
         return NumericFunction(signature, self._declared)
@@ -159,15 +163,16 @@ class DomainBuilder:
         """Replace the cost of an action, or the part of it that is due under one condition.
 
         Args:
-            action: a declared action or its name.
+            action: a declared action or its name, in any case.
             costs: as in `action`, at least one; 0 for none.
             when: a formula over the action's parameters, or its HDDL text, such as `(icy ?to)`: the costs are due where
                 it holds. They replace what was due under exactly this condition; other parts stay.
         """
         declared = self._declared
-        name = action.name if isinstance(action, Task) else action
-        if name not in declared.actions:
-            raise not_declared("action", str(name), declared.actions)
+        given = str(action.name if isinstance(action, Task) else action)
+        name = declared.actions.spelling(given)
+        if name is None:
+            raise not_declared("action", given, declared.actions)
         if not costs:
             raise UsageError(f"expected a cost for action '{name}', found none; 0 is a cost, too")
         old = declared.actions[name]
@@ -230,12 +235,12 @@ class DomainBuilder:
 def declared_in(domain: Domain) -> Declarations:
     """Return all that a domain declares, to build upon."""
     return Declarations(
-        dict(domain.types.parents),
-        dict(domain.constants),
-        {},
-        dict(domain.predicates),
-        dict(domain.functions),
-        dict(domain.tasks),
-        dict(domain.actions),
-        dict(domain.methods),
+        Named(domain.types.parents),
+        Named(domain.constants),
+        Named(),
+        Named(domain.predicates),
+        Named(domain.functions),
+        Named(domain.tasks),
+        Named(domain.actions),
+        Named(domain.methods),
     )

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterable
+from collections import UserDict
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeVar
 
 from statehtn.errors import UsageError
 from statehtn.hddl.diagnostics import unknown
+from statehtn.hddl.spelling import Spellings
 from statehtn.hddl.vocabulary import RESERVED
 
 _NAME = re.compile(r"[^\s();?:-][^\s();]*")
@@ -14,30 +17,54 @@ WORDS = RESERVED | {"=", "<", ">", "<=", ">=", "+", "-", "*", "/", "either", "wh
 """Words with a meaning of their own wherever a predicate, a function or a task could stand."""
 
 
-def new_name(name: object, kind: str, *taken: tuple[str, Container[str]]) -> str:
+T = TypeVar("T")
+
+
+class Named(UserDict[str, T]):
+    """Things by name, as they are spelt; names can be looked for in any case."""
+
+    def __init__(self, things: Mapping[str, T] | None = None) -> None:
+        self._spellings = Spellings()
+        super().__init__(things or {})
+
+    def __setitem__(self, name: str, thing: T) -> None:
+        super().__setitem__(name, thing)
+        self._spellings.add((name,))
+
+    def spelling(self, name: str) -> str | None:
+        """Return the spelling of a name, given in any case; None if there is no such name."""
+        return self._spellings.find(name)
+
+
+def new_name(name: object, kind: str, *taken: tuple[str, Named[Any]]) -> str:
     """Return a name that is new.
 
     Args:
         kind: what it names, for messages.
-        taken: pairs of a kind and the names of that kind that it must differ from.
+        taken: pairs of a kind and the things of that kind, from whose names it must differ by more than case, which
+            HDDL does not distinguish.
 
     Raises:
-        UsageError: it is no name, not in lower case (HDDL does not distinguish it), a word of HDDL, or taken.
+        UsageError: it is no name, a word of HDDL, or taken.
     """
-    article = "an" if kind[0] in "aeiou" else "a"
+    article = _article(kind)
     if not isinstance(name, str):
         raise UsageError(f"the name of {article} {kind} must be a string, found {name!r}")
-    if not _NAME.fullmatch(name) or name in WORDS:
+    if not _NAME.fullmatch(name) or name.lower() in WORDS:
         raise UsageError(
             f"'{name}' cannot name {article} {kind}: a name has no spaces, parentheses or semicolons, does not begin "
             f"with '?', ':' or '-', and is no word of HDDL such as 'and'"
         )
-    if name != name.lower():
-        raise UsageError(f"'{name}' cannot name {article} {kind}: names are in lower case, such as '{name.lower()}'")
-    for other, names in taken:
-        if name in names:
-            raise UsageError(f"there is {'an' if other[0] in 'aeiou' else 'a'} {other} '{name}' already")
+    for what, things in taken:
+        other = things.spelling(name)
+        if other is not None:
+            case = "" if other == name else f", and '{name}' differs in case only, which means nothing in HDDL"
+            raise UsageError(f"there is {_article(what)} {what} '{other}' already{case}")
     return name
+
+
+def _article(word: str) -> str:
+    return "an" if word[0] in "aeiou" else "a"
 
 
 def not_declared(kind: str, name: str, known: Iterable[str]) -> UsageError:

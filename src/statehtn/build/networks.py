@@ -8,7 +8,7 @@ from itertools import count, pairwise
 from typing import Literal
 
 from statehtn.build.declarations import Declarations, Scope
-from statehtn.build.names import new_name, not_declared
+from statehtn.build.names import Named, new_name, not_declared
 from statehtn.build.terms import Term, checked_formula, name_of
 from statehtn.errors import UsageError
 from statehtn.hddl.cycles import find_cycle
@@ -48,11 +48,12 @@ def network_of(
     """
     occurrences = _occurrences(subtasks)
     given = [occurrence.label for occurrence in occurrences if occurrence.label is not None]
+    taken: Named[None] = Named()
     for label in given:
-        new_name(label, "label")
-        if given.count(label) > 1:
-            raise UsageError(f"label '{label}' stands twice in one network")
-    fresh = (name for name in map("task{}".format, count()) if name not in given)
+        if taken.spelling(new_name(label, "label")):
+            raise UsageError(f"label '{label}' stands twice in one network (case does not matter)")
+        taken[label] = None
+    fresh = (name for name in map("task{}".format, count()) if taken.spelling(name) is None)
     found = []
     for occurrence in occurrences:
         signature = declared.signature(occurrence.task)

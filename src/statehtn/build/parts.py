@@ -198,8 +198,9 @@ def _parts(
 
 
 def _joined(scope: Scope, bound: tuple[Parameter, ...], declared: Declarations) -> Scope:
+    around = {name.lower() for name in scope.variables}
     for parameter in bound:
-        if parameter.name in scope.variables:
+        if parameter.name.lower() in around:
             raise UsageError(f"variable '{parameter.name}' of 'forall' is a variable around it, too; use another name")
     return declared.extended(scope, bound)
 

@@ -84,8 +84,8 @@ def checked_variables(variables: Iterable[Parameter]) -> tuple[Parameter, ...]:
     for variable in found:
         if not isinstance(variable, Parameter):
             raise UsageError(f"expected a variable such as Type.variables() makes, found {variable!r}")
-    names = [variable.name for variable in found]
-    for name in names:
-        if names.count(name) > 1:
-            raise UsageError(f"variable '{name}' stands twice in one list")
+    names = [variable.name.lower() for variable in found]
+    for variable in found:
+        if names.count(variable.name.lower()) > 1:
+            raise UsageError(f"variable '{variable.name}' stands twice in one list (case does not matter)")
     return found

@@ -21,7 +21,7 @@ def with_cost(problem: Problem, action: str, *costs: CostPart, when: Combinable 
     Where a domain states no cost at all, every action costs 1; as soon as one has a cost, those without are free.
 
     Args:
-        action: the name of an action of the problem's domain.
+        action: the name of an action of the problem's domain, in any case.
         costs: one or more parts, independent and added up: at least 0, in the domain's unit.
         when: a formula over the action's parameters, or its HDDL text, such as `(icy ?to)`: the costs are due where it
             holds. They replace what was due under exactly this condition; other parts stay. Without it they replace the

@@ -16,7 +16,9 @@ from statehtn.model.costs import PROBABILITY_TOLERANCE
 TOTAL_COST = "total-cost"
 Branches = tuple[tuple[Expression, Expression], ...]
 
-_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e([+-]?[0-9]{1,3}))?|[+-]?[0-9]+/0*[1-9][0-9]*", re.ASCII)
+_NUMBER = re.compile(
+    r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e([+-]?[0-9]{1,3}))?|[+-]?[0-9]+/0*[1-9][0-9]*", re.ASCII | re.IGNORECASE
+)
 MAX_DIGITS = 2000
 
 
@@ -45,7 +47,7 @@ class CostReader:
         if len(node.items) != 3:
             raise self.reporter.error("expected '(increase (total-cost) <expression>)'", node)
         target, amount = node.items[1:]
-        name = target.head if isinstance(target, Group) else target.text
+        name = target.head if isinstance(target, Group) else target.lower
         if name != TOTAL_COST:
             raise self.reporter.unsupported(
                 f"only (total-cost) can be increased, found {describe(target)}; actions cannot change other numbers",
@@ -90,15 +92,15 @@ class CostReader:
         if isinstance(node, Word):
             value = read_number(node.text)
             if value is None:
-                hint = "; functions stand in parentheses" if node.text in self.vocabulary.functions else ""
+                hint = "; functions stand in parentheses" if self.vocabulary.function(node.text) else ""
                 raise self.reporter.error(
                     f"expected a number or a function in parentheses, found {describe(node)}{hint}", node
                 )
             return Number(value)
-        signature = self.vocabulary.functions.get(node.head)
+        signature = self.vocabulary.function(node.name)
         if signature is not None:
             terms = self.vocabulary.terms("function", signature, node, node.items[1:], scope, self.reporter)
-            return FunctionTerm(node.head, terms)
+            return FunctionTerm(signature.name, terms)
         operands = node.items[1:]
         if node.head in ("+", "-", "*"):
             if not operands:
@@ -110,7 +112,7 @@ class CostReader:
             raise self.reporter.unsupported("a cost cannot depend on the total cost so far", node)
         if not node.head:
             raise self.reporter.error(f"expected a number, a function or + - *, found {describe(node)}", node)
-        raise self.reporter.error(unknown("function", node.head, self.vocabulary.functions), node.items[0])
+        raise self.reporter.error(unknown("function", node.name, self.vocabulary.functions), node.items[0])
 
     def _outcome(self, node: Node, scope: Scope) -> Expression:
         """Return the cost of one branch; several increases add up, no effect costs 0."""

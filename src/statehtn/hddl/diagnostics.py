@@ -69,12 +69,12 @@ class Reporter:
 
 
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
-    """Return the message that a name is not declared, with the most similar name that is."""
+    """Return the message that a name is not declared, with the most similar name that is; case does not matter."""
     message = f"unknown {kind} '{shortened(name)}'"
-    candidates = list(known)
+    candidates = {candidate.lower(): candidate for candidate in known}
     if len(name) > 60 or len(candidates) > 5000:  # difflib would take seconds
         return message
     import difflib  # only for errors: it takes 5 ms
 
-    close = difflib.get_close_matches(name, candidates, n=1)
-    return f"{message}; did you mean '{close[0]}'?" if close else message
+    close = difflib.get_close_matches(name.lower(), candidates, n=1)
+    return f"{message}; did you mean '{candidates[close[0]]}'?" if close else message

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Literal
 
 from statehtn.hddl.cost_reader import TOTAL_COST
 from statehtn.hddl.diagnostics import Diagnostics, Reporter, unknown
@@ -13,10 +14,10 @@ from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.network_reader import NETWORK_KEYWORDS, read_network
 from statehtn.hddl.sections import Fields, is_empty, read_header, section_name
 from statehtn.hddl.tokens import Source
-from statehtn.hddl.typed_lists import read_objects, read_parameters, read_types, type_after_dash
-from statehtn.hddl.vocabulary import Vocabulary, new_name, unreserved
+from statehtn.hddl.typed_lists import read_objects, read_parameters, read_types, type_after_dash, typed_list
+from statehtn.hddl.vocabulary import Kind, Scope, Vocabulary, new_name, scope_of, unreserved
 from statehtn.limits import Limits
-from statehtn.model import TRUE, Action, Domain, Formula, Method, Parameter, Signature
+from statehtn.model import TRUE, Action, Domain, Formula, Method, Signature
 
 SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", ":task", ":action", ":method")
 UNSUPPORTED = {
@@ -57,7 +58,8 @@ class _DomainReader:
         name = read_header(self.source, "domain", self.reporter)
         self._sort_sections()
         vocabulary = self.vocabulary
-        vocabulary.declare_types(self._types())
+        types = [entry for group in self._groups(":types") for entry in typed_list(group.items[1:], self.reporter)]
+        read_types(types, vocabulary, self.reporter)
         for start, end in self.sections[":constants"]:
             read_objects(start, end, vocabulary, vocabulary.constants, self.reporter)
         for group in self._groups(":predicates"):
@@ -95,7 +97,7 @@ class _DomainReader:
     def _check_requirements(self, start: int, end: int) -> None:
         """Refuse those that would change what the rest of the file means; the others are not insisted on."""
         for index in range(start + 2, end - 1):
-            requirement = self.source.tokens[index]
+            requirement = self.source.tokens[index].lower()
             if requirement in UNSUPPORTED_REQUIREMENTS:
                 what = UNSUPPORTED_REQUIREMENTS[requirement]
                 raise self.reporter.unsupported(f"{what} ({requirement}) are not supported", Word(requirement, index))
@@ -105,19 +107,13 @@ class _DomainReader:
             self.limits.check()
             yield parse_group(self.source, start)
 
-    def _types(self) -> dict[str, tuple[str, ...]]:
-        parents: dict[str, tuple[str, ...]] = {}
-        for group in self._groups(":types"):
-            read_types(group.items[1:], parents, self.reporter)
-        return parents
-
     def _predicates(self, section: Group) -> None:
         for node in section.items[1:]:
-            signature = self._signature(node, "predicate")
+            word, signature = self._signature(node, "predicate")
             if signature.name == "=":
                 self.reporter.warn("'=' is built in and need not be declared", node)
                 continue
-            self._declare(signature, "predicate", self.vocabulary.predicates, node)
+            self._declare(signature, "predicate", self.vocabulary.predicates, word)
 
     def _functions(self, section: Group) -> None:
         """Read `(slow ?a ?b) - number`; the type may be left out, and `(total-cost)` is known anyway."""
@@ -132,19 +128,21 @@ class _DomainReader:
                     index += 1
                 else:
                     kind = type_after_dash(node, self.reporter)
-                if not isinstance(kind, Word) or kind.text != "number":
+                if not isinstance(kind, Word) or kind.lower != "number":
                     raise self.reporter.unsupported(f"functions have the type 'number', found {describe(kind)}", kind)
                 continue
-            signature = self._signature(node, "function")
-            if signature.name == TOTAL_COST:
+            word, signature = self._signature(node, "function")
+            if word.lower == TOTAL_COST:
                 continue
-            self._declare(signature, "function", self.vocabulary.functions, node)
+            self._declare(signature, "function", self.vocabulary.functions, word)
 
-    def _signature(self, node: Node, kind: str) -> Signature:
+    def _signature(self, node: Node, kind: str) -> tuple[Word, Signature]:
+        """Return the name of a predicate or function, as it stands in the file, and its declaration."""
         if isinstance(node, Word) or not node.items:
             raise self.reporter.error(f"expected '(<{kind}> <parameters>)', found {describe(node)}", node)
-        name = unreserved(new_name(node.items[0], kind, node, self.reporter), kind, node, self.reporter)
-        return Signature(name, read_parameters(node.items[1:], self.vocabulary, self.reporter, distinct=False))
+        word = unreserved(node.items[0], kind, node, self.reporter)
+        parameters = read_parameters(node.items[1:], self.vocabulary, self.reporter, distinct=False)
+        return word, Signature(word.text, parameters)
 
     def _task(self, section: Group) -> None:
         signature, fields = self._head(section)
@@ -158,29 +156,40 @@ class _DomainReader:
         """Declare an action or a task; actions are read only when all of them are declared."""
         kind = section.head[1:]
         name_node = section.items[1] if len(section.items) > 1 else None
-        name = unreserved(new_name(name_node, kind, section, self.reporter), kind, section, self.reporter)
-        for other_kind, known in (("task", self.vocabulary.tasks), ("action", self.vocabulary.actions)):
-            self._check_new(name, other_kind, known, name_node or section)
+        word = unreserved(name_node, kind, section, self.reporter)
+        self._claim(word, "task", "an action" if self.vocabulary.is_action(word.text) else "a task")
         fields = Fields(section, section.items[2:], ACTION_KEYWORDS, self.reporter)
-        signature = Signature(name, read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter))
+        signature = Signature(word.text, read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter))
         if kind == "action":
-            self.vocabulary.actions[name] = signature
+            self.vocabulary.actions[word.text] = signature
         return signature, fields
 
-    def _declare(self, signature: Signature, kind: str, known: dict[str, Signature], node: Node) -> None:
+    def _declare(
+        self, signature: Signature, kind: Literal["predicate", "function"], known: dict[str, Signature], word: Word
+    ) -> None:
         """Add a declaration; the same one again changes nothing and is only a warning."""
-        if known.get(signature.name) == signature:
-            self.reporter.warn(f"{kind} '{signature.name}' is declared again", node)
-        else:
-            self._check_new(signature.name, kind, known, node)
+        name = self.vocabulary.spelling(kind, word.text)
+        if name is None or _types_of(known[name]) != _types_of(signature):
+            self._claim(word, kind, f"a {kind}")
             known[signature.name] = signature
+        elif name == word.text:
+            self.reporter.warn(f"{kind} '{name}' is declared again", word)
+        else:
+            differing = self.vocabulary.differ_in_case(kind, name, word.text, self.reporter)
+            self.reporter.warn(f"{differing}; they are one {kind}, '{name}'", word)
 
-    def _check_new(self, name: str, kind: str, known: Iterable[str], at: Node) -> None:
-        if name in known:
-            raise self.reporter.error(f"there is {'an' if kind == 'action' else 'a'} {kind} '{name}' already", at)
+    def _claim(self, word: Word, kind: Kind, what: str) -> None:
+        """Note a new name; that of `what` there is already is an error."""
+        name = self.vocabulary.spelling(kind, word.text)
+        if name == word.text:
+            raise self.reporter.error(f"there is {what} '{name}' already", word)
+        if name is not None:
+            differing = self.vocabulary.differ_in_case(kind, name, word.text, self.reporter)
+            raise self.reporter.error(f"{differing}; there is {what} '{name}' already, so expected another name", word)
+        self.vocabulary.declare(kind, (word.text,), self.source, word.index)
 
     def _action(self, signature: Signature, fields: Fields) -> Action:
-        scope = _scope(signature.parameters)
+        scope = scope_of(signature.parameters)
         precondition = self._precondition(fields, scope)
         reader = EffectReader(self.vocabulary, self.reporter)
         effect = fields.get(":effect")
@@ -192,15 +201,15 @@ class _DomainReader:
         methods: dict[str, Method] = {}
         for section in self._groups(":method"):
             name_node = section.items[1] if len(section.items) > 1 else None
-            name = new_name(name_node, "method", section, self.reporter)
-            self._check_new(name, "method", methods, name_node or section)
-            methods[name] = self._method(name, section)
+            word = new_name(name_node, "method", section, self.reporter)
+            self._claim(word, "method", "a method")
+            methods[word.text] = self._method(word.text, section)
         return methods
 
     def _method(self, name: str, section: Group) -> Method:
         fields = Fields(section, section.items[2:], METHOD_KEYWORDS, self.reporter)
         parameters = read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter)
-        scope = _scope(parameters)
+        scope = scope_of(parameters)
         task, arguments = self._decomposed(name, fields, scope)
         effect = fields.get(":effect")
         if effect is not None and not is_empty(effect):
@@ -208,26 +217,27 @@ class _DomainReader:
         network = read_network(fields, scope, self.vocabulary, self.reporter)
         return Method(name, parameters, task, arguments, network, self._precondition(fields, scope))
 
-    def _decomposed(self, name: str, fields: Fields, scope: dict[str, tuple[str, ...]]) -> tuple[str, tuple[str, ...]]:
+    def _decomposed(self, name: str, fields: Fields, scope: Scope) -> tuple[str, tuple[str, ...]]:
         node = fields.get(":task")
-        if node is None or not node.head:
+        if node is None or not node.name:
             raise self.reporter.error(
                 f"method '{name}' must say which task it decomposes: ':task (<task> <arguments>)'", node or fields.owner
             )
-        signature = self.vocabulary.tasks.get(node.head)
+        if self.vocabulary.is_action(node.name):
+            raise self.reporter.error(
+                f"method '{name}' cannot decompose '{node.name}', which is an action", node.items[0]
+            )
+        signature = self.vocabulary.task(node.name)
         if signature is None:
-            if node.head in self.vocabulary.actions:
-                raise self.reporter.error(
-                    f"method '{name}' cannot decompose '{node.head}', which is an action", node.items[0]
-                )
-            message = unknown("task", node.head, self.vocabulary.tasks)
+            message = unknown("task", node.name, self.vocabulary.tasks)
             raise self.reporter.error(f"method '{name}' decomposes an {message}", node.items[0])
-        return node.head, self.vocabulary.terms("task", signature, node, node.items[1:], scope, self.reporter)
+        terms = self.vocabulary.terms("task", signature, node, node.items[1:], scope, self.reporter)
+        return signature.name, terms
 
-    def _precondition(self, fields: Fields, scope: dict[str, tuple[str, ...]]) -> Formula:
+    def _precondition(self, fields: Fields, scope: Scope) -> Formula:
         node = fields.get(":precondition")
         return TRUE if node is None else FormulaReader(self.vocabulary, self.reporter).read(node, scope)
 
 
-def _scope(parameters: tuple[Parameter, ...]) -> dict[str, tuple[str, ...]]:
-    return {parameter.name: parameter.types for parameter in parameters}
+def _types_of(signature: Signature) -> list[tuple[str, ...]]:
+    return [parameter.types for parameter in signature.parameters]

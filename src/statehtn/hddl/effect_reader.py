@@ -12,7 +12,7 @@ from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.typed_lists import read_parameters
-from statehtn.hddl.vocabulary import Scope, Vocabulary
+from statehtn.hddl.vocabulary import Scope, Vocabulary, scope_of
 from statehtn.model import TRUE, And, Atom, CostBlock, Effect, Formula, Number, Parameter
 
 _NUMERIC = frozenset({"decrease", "assign", "scale-up", "scale-down"})
@@ -53,7 +53,7 @@ class EffectReader:
                 self.effects.append(Effect(self._atom(node.items[1], scope), False, condition, parameters))
             case "forall":
                 self._forall(node, scope, condition, parameters)
-            case head if head in self.vocabulary.predicates:
+            case _ if self.vocabulary.predicate(node.name):
                 self.effects.append(Effect(self._atom(node, scope), True, condition, parameters))
             case "when":
                 self._when(node, scope, condition, parameters)
@@ -84,17 +84,16 @@ class EffectReader:
         names = _fresh_names(declared, node, scope)
         added = read_parameters(_renamed(declared.items, names), self.vocabulary, self.reporter)
         (body,) = _renamed(node.items[2:], names)
-        inner_scope = {**scope, **{parameter.name: parameter.types for parameter in added}}
-        self.read(body, inner_scope, condition, (*parameters, *added))
+        self.read(body, {**scope, **scope_of(added)}, condition, (*parameters, *added))
 
     def _atom(self, node: Node, scope: Scope) -> Atom:
         if isinstance(node, Word) or not node.head:
             raise self.reporter.error(f"expected '(<predicate> ...)', found {describe(node)}", node)
-        signature = self.vocabulary.predicates.get(node.head)
+        signature = self.vocabulary.predicate(node.name)
         if signature is None:
             raise self._refusal(node)
         terms = self.vocabulary.terms("predicate", signature, node, node.items[1:], scope, self.reporter)
-        return Atom(node.head, terms)
+        return Atom(signature.name, terms)
 
     def _cost_reader(self) -> CostReader:
         return CostReader(self.vocabulary, self.reporter)
@@ -110,19 +109,19 @@ class EffectReader:
             return self.reporter.unsupported("non-deterministic effects ('oneof') are not supported", node)
         if node.head in ("or", "imply", "exists", "="):
             return self.reporter.error(f"'{node.head}' cannot be an effect", node)
-        return self.reporter.error(unknown("predicate", node.head, self.vocabulary.predicates), node.items[0])
+        return self.reporter.error(unknown("predicate", node.name, self.vocabulary.predicates), node.items[0])
 
 
 def _fresh_names(declared: Group, node: Group, scope: Scope) -> dict[str, str]:
-    """Return other names for the variables of a quantifier that are variables outside of it, too.
+    """Return other names for the variables of a quantifier, in lower case, that are variables outside of it, too.
 
     Both may end up in one condition: that of a `when` around the quantifier and that of one inside it.
     """
-    clashes = [word.text for word in _words(declared) if word.text in scope]
-    used = {word.text for word in _words(node)} if clashes else set()
+    clashes = [word for word in _words(declared) if word.lower in scope]
+    used = {*scope, *(word.lower for word in _words(node))} if clashes else set()
     return {
-        name: next(new for number in count(1) if (new := f"{name}_{number}") not in used and new not in scope)
-        for name in clashes
+        word.lower: next(new for number in count(1) if (new := f"{word.text}_{number}").lower() not in used)
+        for word in clashes
     }
 
 
@@ -142,7 +141,7 @@ def _renamed(nodes: list[Node], names: dict[str, str]) -> list[Node]:
     found: list[Node] = []
     for node in nodes:
         if isinstance(node, Word):
-            found.append(Word(names.get(node.text, node.text), node.index))
+            found.append(Word(names.get(node.lower, node.text), node.index))
         else:
             group = Group(node.index)
             group.items = _renamed(node.items, names)

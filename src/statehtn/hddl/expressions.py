@@ -20,6 +20,11 @@ class Word:
         self.index = index
 
     @property
+    def lower(self) -> str:
+        """The word in lower case, which compares words of the language."""
+        return self.text.lower()
+
+    @property
     def is_keyword(self) -> bool:
         """True for words such as `:parameters`."""
         return self.text.startswith(":")
@@ -36,7 +41,13 @@ class Group:
 
     @property
     def head(self) -> str:
-        """The first word; empty where there is none."""
+        """The first word in lower case, for words of the language; empty where there is none."""
+        first = self.items[0] if self.items else None
+        return first.text.lower() if isinstance(first, Word) else ""
+
+    @property
+    def name(self) -> str:
+        """The first word as it is written; empty where there is none."""
         first = self.items[0] if self.items else None
         return first.text if isinstance(first, Word) else ""
 
@@ -85,4 +96,4 @@ def describe(node: Node) -> str:
         return f"'{shortened(node.text)}'"
     if not node.items:
         return "'()'"
-    return f"'({shortened(node.head)} ...)'" if node.head else "'((...'"
+    return f"'({shortened(node.name)} ...)'" if node.name else "'((...'"

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, consumed, describe
-from statehtn.hddl.typed_lists import read_parameters, typed_list
-from statehtn.hddl.vocabulary import Scope, Vocabulary
+from statehtn.hddl.typed_lists import declared_types, read_parameters, typed_list
+from statehtn.hddl.vocabulary import Scope, Vocabulary, scope_of
 from statehtn.model import TRUE, And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or
 
 SORT = frozenset({"sortof", "sort", "typeof"})
@@ -72,7 +72,7 @@ class FormulaReader:
         if isinstance(declared, Word):
             raise self.reporter.error(f"expected variables in parentheses, found {describe(declared)}", declared)
         parameters = read_parameters(declared.items, self.vocabulary, self.reporter)
-        inner = self.read(body, {**scope, **{parameter.name: parameter.types for parameter in parameters}})
+        inner = self.read(body, {**scope, **scope_of(parameters)})
         return Forall(parameters, inner) if node.head == "forall" else Exists(parameters, inner)
 
     def _equals(self, node: Group, scope: Scope) -> Formula:
@@ -84,10 +84,10 @@ class FormulaReader:
         )
 
     def _atom(self, node: Group, scope: Scope) -> Formula:
-        signature = self.vocabulary.predicates.get(node.head)
+        signature = self.vocabulary.predicate(node.name)
         if signature is not None:
             terms = self.vocabulary.terms("predicate", signature, node, node.items[1:], scope, self.reporter)
-            return Atom(node.head, terms)
+            return Atom(signature.name, terms)
         if node.head in SORT:
             return self._sort_constraint(node, scope)
         if node.head in NUMERIC:
@@ -96,7 +96,7 @@ class FormulaReader:
             raise self.reporter.unsupported(
                 f"preferences and trajectory constraints ('{node.head}') are not supported", node
             )
-        raise self.reporter.error(unknown("predicate", node.head, self.vocabulary.predicates), node.items[0])
+        raise self.reporter.error(unknown("predicate", node.name, self.vocabulary.predicates), node.items[0])
 
     def _sort_constraint(self, node: Group, scope: Scope) -> Formula:
         """Read `(sortof ?x - t)`."""
@@ -109,10 +109,8 @@ class FormulaReader:
         if len(declared) != 1 or not declared[0][1]:
             raise self.reporter.error(f"expected '({node.head} ?x - <type>)', one variable and its type", node)
         ((term, kinds),) = declared
-        for kind in kinds:
-            if kind.text not in self.vocabulary.types:
-                raise self.reporter.error(unknown("type", kind.text, self.vocabulary.types.parents), kind)
-        return OfType(self.vocabulary.term(term, scope, self.reporter), tuple(kind.text for kind in kinds))
+        types = declared_types(kinds, self.vocabulary, self.reporter)
+        return OfType(self.vocabulary.term(term, scope, self.reporter), types)
 
     def _operands(self, node: Group, count: int) -> list[Node]:
         if len(node.items) != count + 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Literal
 
 from statehtn.hddl.cost_reader import TOTAL_COST, read_number
 from statehtn.hddl.diagnostics import Reporter, unknown
@@ -55,11 +56,11 @@ class InitialStateReader:
             fact = tuple(tokens[index + 1 : close])
             allowed = predicates.get(fact[0]) if fact else None
             if allowed is None or tokens[index] != "(" or len(fact) != len(allowed) + 1:
-                index = self._value(index) or self._other(index)
+                index = self._respelt(fact, index, close) or self._value(index) or self._other(index)
                 continue
             for position, names in enumerate(allowed, 1):
                 if fact[position] not in names:
-                    index = self._other(index)
+                    index = self._respelt(fact, index, close) or self._other(index)
                     break
             else:
                 facts.add(fact)
@@ -80,17 +81,43 @@ class InitialStateReader:
             self._objects_of[types] = self._vocabulary.objects_of(types)
         return self._objects_of[types]
 
+    def _respelt(self, words: tuple[str, ...], index: int, close: int) -> int | None:
+        """Take a fact whose names are spelt otherwise than in their declarations; return the token after it."""
+        if not words or self._reporter.source.tokens[index] != "(":
+            return None
+        fact = self._as_declared("predicate", words, self._predicates)
+        if fact is None:
+            return None
+        self.facts.add(fact)
+        return close + 1
+
+    def _as_declared(
+        self,
+        kind: Literal["predicate", "function"],
+        words: tuple[str, ...],
+        allowed: dict[str, tuple[frozenset[str], ...]],
+    ) -> tuple[str, ...] | None:
+        """Return a predicate or function and its objects as they are declared; None where something is wrong."""
+        name = self._vocabulary.spelling(kind, words[0])
+        if name is None or len(words) != len(allowed[name]) + 1:
+            return None
+        found = [name]
+        for word, names in zip(words[1:], allowed[name], strict=True):
+            argument = word if word in names else self._vocabulary.spelling("object", word)
+            if argument not in names:
+                return None
+            found.append(argument)
+        return tuple(found)
+
     def _value(self, index: int) -> int | None:
         """Take `(= (function objects) number)` and return the token after it; None if it is anything else."""
         tokens = self._reporter.source.tokens
         if tokens[index : index + 3] != ["(", "=", "("]:
             return None
         close = tokens.index(")", index)
-        key = tuple(tokens[index + 3 : close])
-        allowed = self._functions.get(key[0]) if key else None
-        if allowed is None or len(key) != len(allowed) + 1 or tokens[close + 2] != ")" or key in self.values:
-            return None
-        if not all(name in names for name, names in zip(key[1:], allowed, strict=True)):
+        words = tuple(tokens[index + 3 : close])
+        key = self._as_declared("function", words, self._functions) if words else None
+        if key is None or tokens[close + 2] != ")" or key in self.values:
             return None
         text = tokens[close + 1]
         if text not in self._numbers:
@@ -129,18 +156,21 @@ class InitialStateReader:
                 if not isinstance(operand, Group) or operand is node:
                     raise self._reporter.error("expected '(not (<predicate> ...))'", node)
                 self._false.append((self._fact(operand), node))
-            case "probabilistic" | "oneof" | "or" | "unknown" if node.head not in self._predicates:
+            case "probabilistic" | "oneof" | "or" | "unknown" if not self._vocabulary.predicate(node.name):
                 raise self._reporter.unsupported("the initial state must be certain", node)
             case _:
                 self.facts.add(self._fact(node))
 
     def _fact(self, node: Group) -> Fact:
-        if not node.head:
+        if not node.name:
             raise self._reporter.error(f"expected '(<predicate> <objects>)', found {describe(node)}", node)
-        signature = self._vocabulary.predicates.get(node.head)
+        signature = self._vocabulary.predicate(node.name)
         if signature is None:
-            raise self._reporter.error(unknown("predicate", node.head, self._predicates), node.items[0])
-        return (node.head, *self._vocabulary.terms("predicate", signature, node, node.items[1:], {}, self._reporter))
+            raise self._reporter.error(unknown("predicate", node.name, self._predicates), node.items[0])
+        return (
+            signature.name,
+            *self._vocabulary.terms("predicate", signature, node, node.items[1:], {}, self._reporter),
+        )
 
     def _assignment(self, node: Group) -> None:
         _, term, number = node.items if len(node.items) == 3 else (node, node, node)
@@ -153,9 +183,9 @@ class InitialStateReader:
             if value:
                 self._reporter.warn("the total cost starts at 0; another value is ignored", node)
             return
-        signature = self._vocabulary.functions.get(term.head)
+        signature = self._vocabulary.function(term.name)
         if signature is None:
-            raise self._reporter.error(unknown("function", term.head, self._functions), term)
-        key = (term.head, *self._vocabulary.terms("function", signature, term, term.items[1:], {}, self._reporter))
+            raise self._reporter.error(unknown("function", term.name, self._functions), term)
+        key = (signature.name, *self._vocabulary.terms("function", signature, term, term.items[1:], {}, self._reporter))
         if self.values.setdefault(key, value) != value:
             raise self._reporter.error(f"the value of ({' '.join(key)}) is given twice, with different numbers", node)

@@ -60,9 +60,9 @@ def _subtasks(group: Group | None, scope: Scope, vocabulary: Vocabulary, reporte
     for node in _conjuncts(group):
         label, _ = _label_and_task(node, reporter)
         if label is not None:
-            if label.text in labels:
+            if label.lower in labels:
                 raise reporter.error(f"label '{label.text}' stands twice in one network", label)
-            labels.add(label.text)
+            labels.add(label.lower)
     fresh = (name for name in map("task{}".format, count()) if name not in labels)
     found = []
     for node in consumed(group) if group is not None and group.head == "and" else _conjuncts(group):
@@ -88,18 +88,18 @@ def _label_and_task(node: Node, reporter: Reporter) -> tuple[Word | None, Group]
 
 
 def _subtask(label: str, node: Group, scope: Scope, vocabulary: Vocabulary, reporter: Reporter) -> Subtask:
-    signature = vocabulary.tasks.get(node.head) or vocabulary.actions.get(node.head)
+    signature = vocabulary.task(node.name)
     if signature is None:
-        if not node.head:
+        if not node.name:
             raise reporter.error(f"expected '(<task> <arguments>)', found {describe(node)}", node)
-        raise reporter.error(unknown("task", node.head, (*vocabulary.tasks, *vocabulary.actions)), node.items[0])
-    kind = "task" if node.head in vocabulary.tasks else "action"
-    return Subtask(label, node.head, vocabulary.terms(kind, signature, node, node.items[1:], scope, reporter))
+        raise reporter.error(unknown("task", node.name, (*vocabulary.tasks, *vocabulary.actions)), node.items[0])
+    kind = "task" if signature.name in vocabulary.tasks else "action"
+    return Subtask(label, signature.name, vocabulary.terms(kind, signature, node, node.items[1:], scope, reporter))
 
 
 def _pairs(group: Group, subtasks: tuple[Subtask, ...], reporter: Reporter) -> Iterator[tuple[int, int]]:
     """Yield the indices of `(< a b)`, `(a < b)` and `(> b a)`."""
-    index_of = {subtask.label: index for index, subtask in enumerate(subtasks)}
+    index_of = {subtask.label.lower(): index for index, subtask in enumerate(subtasks)}
     for node in _conjuncts(group):
         if not isinstance(node, Group):
             raise reporter.error(f"expected '(< <label> <label>)', found {describe(node)}", node)
@@ -126,6 +126,6 @@ def _comparison(node: Group, reporter: Reporter) -> tuple[str, Word, Word]:
 
 
 def _index(label: Word, index_of: dict[str, int], reporter: Reporter) -> int:
-    if label.text not in index_of:
+    if label.lower not in index_of:
         raise reporter.error(unknown("label", label.text, index_of), label)
-    return index_of[label.text]
+    return index_of[label.lower]

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 
 from statehtn.errors import InputError, Place
 from statehtn.hddl.plan_matching import Child, match_children, topological_order
+from statehtn.hddl.spelling import Spellings
 from statehtn.model.plan import Decomposition, Plan, Step
 from statehtn.model.problem import Problem, TaskNetwork
 
@@ -64,7 +65,7 @@ def read_plan(text: str, problem: Problem, file: str = "<plan>") -> Plan:
     Raises:
         InputError: the text holds no plan, a line is malformed, or the numbers do not make a tree.
     """
-    lines = _read_lines(text, _Spelling(problem), file)
+    lines = _read_lines(text, _Names(problem), file)
     lines.unwrap_top()
     order = lines.children_first()
     return _Builder(lines, problem).build(order)
@@ -126,23 +127,27 @@ class _Lines:
         return order[::-1]
 
 
-class _Spelling:
-    """The problem's own spelling of names that a plan may write in other letters."""
+class _Names:
+    """The problem's own spelling of names that a plan may write in other letters; unknown names stay as they are."""
 
     def __init__(self, problem: Problem) -> None:
-        domain = problem.domain
-        names = (*problem.all_objects, *domain.methods, *domain.tasks, *domain.actions)
-        self._exact = frozenset(names)
-        self._folded = {name.lower(): name for name in names}
+        self._tasks = Spellings((*problem.domain.tasks, *problem.domain.actions))
+        self._methods = Spellings(problem.domain.methods)
+        self._objects = Spellings(problem.all_objects)
 
-    def __call__(self, name: str) -> str:
-        return name if name in self._exact else self._folded.get(name.lower(), name)
+    def task(self, name: str, *arguments: str) -> tuple[str, tuple[str, ...]]:
+        """Return the name of a task and those of its arguments."""
+        return self._tasks.find(name) or name, tuple(self._objects.find(word) or word for word in arguments)
+
+    def method(self, name: str) -> str:
+        """Return the name of a method."""
+        return self._methods.find(name) or name
 
 
 _NO_BRACKETS = str.maketrans("()[],", "     ")
 
 
-def _read_lines(text: str, spelling: _Spelling, file: str) -> _Lines:
+def _read_lines(text: str, names: _Names, file: str) -> _Lines:
     """Take the lines between `==>` and `<==` apart."""
     lines = _Lines(file)
     inside = False
@@ -161,7 +166,7 @@ def _read_lines(text: str, spelling: _Spelling, file: str) -> _Lines:
                 raise InputError("a second line 'root'; expected one", place)
             lines.roots, lines.root_place = [_number(word, place) for word in words[1:]], place
         else:
-            _read_task(words, lines, spelling, place)
+            _read_task(words, lines, names, place)
     if lines.roots is None:
         missing = (
             "the plan has no decomposition: expected a line 'root ...'"
@@ -172,7 +177,7 @@ def _read_lines(text: str, spelling: _Spelling, file: str) -> _Lines:
     return lines
 
 
-def _read_task(words: list[str], lines: _Lines, spelling: _Spelling, place: Place) -> None:
+def _read_task(words: list[str], lines: _Lines, names: _Names, place: Place) -> None:
     number = _number(words[0], place)
     if number in lines.steps or number in lines.nodes:
         raise InputError(f"the number {number} stands before two tasks; expected another number", place)
@@ -181,15 +186,13 @@ def _read_task(words: list[str], lines: _Lines, spelling: _Spelling, place: Plac
             raise InputError(f"expected the name of a task after the number {number}", place)
         if lines.roots is not None:
             raise InputError("expected '->' and a method: actions stand before the line 'root'", place)
-        name, *arguments = map(spelling, words[1:])
-        lines.steps[number] = Step(name, tuple(arguments))
+        lines.steps[number] = Step(*names.task(*words[1:]))
         return
     arrow = words.index("->")
     if arrow < 2 or len(words) < arrow + 2:
         raise InputError("expected '<number> <task> <arguments> -> <method> <numbers>'", place)
-    name, *arguments = map(spelling, words[1:arrow])
     children = [_number(word, place) for word in words[arrow + 2 :]]
-    lines.nodes[number] = _Node(place, name, tuple(arguments), spelling(words[arrow + 1]), children)
+    lines.nodes[number] = _Node(place, *names.task(*words[1:arrow]), names.method(words[arrow + 1]), children)
 
 
 def _number(word: str, place: Place) -> int:

@@ -14,7 +14,7 @@ from statehtn.hddl.network_reader import NETWORK_KEYWORDS, read_network
 from statehtn.hddl.sections import Fields, read_header, section_name
 from statehtn.hddl.tokens import Source, shortened
 from statehtn.hddl.typed_lists import read_objects, read_parameters
-from statehtn.hddl.vocabulary import Vocabulary
+from statehtn.hddl.vocabulary import Vocabulary, scope_of
 from statehtn.limits import Limits
 from statehtn.model import TRUE, Domain, Formula, Parameter, Problem, TaskNetwork
 
@@ -48,19 +48,19 @@ def read_problem(
     return _ProblemReader(source, domain, vocabulary, Reporter(source, diagnostics), limits).read()
 
 
-def problem_objects(source: Source, vocabulary: Vocabulary) -> dict[str, str]:
+def problem_objects(source: Source, vocabulary: Vocabulary) -> Vocabulary:
     """Return the objects of a problem with their types, before the problem is read.
 
     Mistakes in them end the list; they are told when the problem is read.
     """
-    scratch, objects = Vocabulary(), dict[str, str]()
+    scratch = Vocabulary()
     scratch.declare_types(vocabulary.types.parents)
     reporter = Reporter(source, Diagnostics(strict=False))
     with suppress(StateHtnError):
         for start, end in source.sections:
-            if source.tokens[start + 1] == ":objects":
-                read_objects(start, end, scratch, objects, reporter)
-    return objects
+            if source.tokens[start + 1].lower() == ":objects":
+                read_objects(start, end, scratch, {}, reporter)
+    return scratch
 
 
 class _ProblemReader:
@@ -112,7 +112,7 @@ class _ProblemReader:
         named = section.items[1] if len(section.items) == 2 else section
         if isinstance(named, Group):
             raise self.reporter.error("expected '(:domain <name>)'", section)
-        if named.text != self.domain.name:
+        if named.lower != self.domain.name.lower():
             self.reporter.warn(
                 f"the problem is for domain '{shortened(named.text)}', the domain is '{shortened(self.domain.name)}'",
                 named,
@@ -126,8 +126,7 @@ class _ProblemReader:
             )
         fields = Fields(section, section.items[1:], (":parameters", *NETWORK_KEYWORDS), self.reporter)
         parameters = read_parameters(fields.items(":parameters"), self.vocabulary, self.reporter)
-        scope = {parameter.name: parameter.types for parameter in parameters}
-        return parameters, read_network(fields, scope, self.vocabulary, self.reporter)
+        return parameters, read_network(fields, scope_of(parameters), self.vocabulary, self.reporter)
 
     def _goal(self) -> Formula:
         section = self._only(":goal")
@@ -144,8 +143,8 @@ class _ProblemReader:
         if section is None:
             return
         direction, measure = section.items[1:] if len(section.items) == 3 else (section, section)
-        if isinstance(direction, Group) or direction.text not in ("minimize", "minimise", "maximize", "maximise"):
+        if isinstance(direction, Group) or direction.lower not in ("minimize", "minimise", "maximize", "maximise"):
             raise self.reporter.error("expected '(:metric minimize (total-cost))'", section)
-        name = measure.text if isinstance(measure, Word) else measure.head if len(measure.items) == 1 else ""
-        if not direction.text.startswith("minim") or name != TOTAL_COST:
+        name = measure.lower if isinstance(measure, Word) else measure.head if len(measure.items) == 1 else ""
+        if not direction.lower.startswith("minim") or name != TOTAL_COST:
             raise self.reporter.unsupported("the only metric is '(:metric minimize (total-cost))'", section)

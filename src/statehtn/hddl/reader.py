@@ -29,7 +29,7 @@ def read_hddl(
 ) -> Problem:
     """Read a problem and its domain from two HDDL files.
 
-    All names are turned into lower case, as HDDL does not distinguish it. docs/hddl.md says what is accepted,
+    Names are compared without case, and are spelt as in their declarations. docs/hddl.md says what is accepted,
     docs/hddl-costs.md how costs are written.
 
     Args:
@@ -86,11 +86,11 @@ def _read(domain: tuple[str, str], problem: tuple[str, str], diagnostics: Diagno
     problem_file, problem_text = problem
 
     @cache
-    def objects_of_the_problem() -> dict[str, str]:
+    def objects_of_the_problem() -> Vocabulary | None:
         """Read them ahead; a mistake in the file is told when the file is read."""
         with suppress(StateHtnError):
             return problem_objects(Source(problem_text, problem_file, limits), vocabulary)
-        return {}
+        return None
 
     vocabulary = Vocabulary(objects_of_the_problem)
     with _without_collector():

@@ -31,14 +31,14 @@ class Fields:
             keyword = nodes[index]
             if isinstance(keyword, Group) or not keyword.is_keyword:
                 raise reporter.error(f"expected one of {', '.join(allowed)}, found {describe(keyword)}", keyword)
-            if keyword.text not in allowed:
+            if keyword.lower not in allowed:
                 raise reporter.error(unknown("keyword", keyword.text, allowed), keyword)
-            if keyword.text in self.values:
+            if keyword.lower in self.values:
                 raise reporter.error(f"'{keyword.text}' stands twice in one section", keyword)
             value = nodes[index + 1] if index + 1 < len(nodes) else None
             if value is None or (isinstance(value, Word) and value.is_keyword):
                 raise reporter.error(f"expected a value in parentheses after '{keyword.text}'", value or keyword)
-            self.values[keyword.text] = (keyword, value)
+            self.values[keyword.lower] = (keyword, value)
             index += 2
 
     def get(self, *keywords: str) -> Group | None:
@@ -71,7 +71,7 @@ def is_empty(group: Group) -> bool:
 
 
 def section_name(source: Source, start: int) -> str:
-    """Return the first word of a section.
+    """Return the first word of a section, in lower case.
 
     Raises:
         InputError: it starts with a parenthesis.
@@ -79,7 +79,7 @@ def section_name(source: Source, start: int) -> str:
     word = source.tokens[start + 1]
     if word == "(":
         raise source.error("expected a section such as '(:action ...)', found '(('", start)
-    return word
+    return word.lower()
 
 
 def read_header(source: Source, kind: str, reporter: Reporter) -> str:

@@ -1,7 +1,7 @@
-"""From the bytes of a file to tokens: parentheses and lower-case words, with their places on demand.
+"""From the bytes of a file to tokens: parentheses and words as they are written, with their places on demand.
 
-HDDL does not distinguish upper from lower case; everything is turned into lower case here, once. A token is known by
-its index; line and column are worked out only when an error or a warning asks for them, so that large files stay cheap.
+A token is known by its index; line and column are worked out only when an error or a warning asks for them, so that
+large files stay cheap.
 """
 
 from __future__ import annotations
@@ -99,10 +99,10 @@ class Source:
                         sections.append((start, index + 1))
                     elif depth < 0:
                         raise self._trailing(index) if index else self.error("expected '(define', found ')'", index)
-                elif depth < 2 and not (index == 1 and token == "define"):
+                elif depth < 2 and not (index == 1 and token.lower() == "define"):
                     raise self._stray(token, index, depth)
             tokens += chunk
-            if depth > 1 and len(tokens) - start > MAX_SECTION and tokens[start + 1] != ":init":
+            if depth > 1 and len(tokens) - start > MAX_SECTION and tokens[start + 1].lower() != ":init":
                 raise self.error(f"this section has more than {MAX_SECTION} words; is a ')' missing?", start)
         if not tokens:
             raise InputError(
@@ -113,7 +113,7 @@ class Source:
 
     def _chunks(self) -> Iterator[list[str]]:
         """Yield the tokens piece by piece, equal words as the same object."""
-        text = (_COMMENT.sub("", self.text) if ";" in self.text else self.text).lower()
+        text = _COMMENT.sub("", self.text) if ";" in self.text else self.text
         words: dict[str, str] = {}
         start = 0
         while start < len(text):
@@ -163,7 +163,7 @@ class Source:
         return self.error(f"unbalanced parentheses: {count} never closed, the last of them this one", opened[-1])
 
     def _starts_section(self, index: int) -> bool:
-        return index < len(self.tokens) and self.tokens[index] in (
+        return index < len(self.tokens) and self.tokens[index].lower() in (
             ":action",
             ":method",
             ":task",

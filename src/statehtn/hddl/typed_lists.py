@@ -9,14 +9,14 @@ from statehtn.hddl.cycles import find_cycle
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
 from statehtn.hddl.vocabulary import Types, Vocabulary, new_name
-from statehtn.model import Parameter, TypeHierarchy
+from statehtn.model import Parameter
 from statehtn.model.types import ROOT_TYPE
 
 MAX_TYPES = 20
 """Types of one object; the name of the type that joins them grows with their number."""
 
 
-_PLAIN_NAME = re.compile(r"(?!either$)[^-?:()]").match
+_PLAIN_NAME = re.compile(r"(?!either$)[^-?:()]", re.IGNORECASE).match
 
 
 def typed_list(nodes: Sequence[Node], reporter: Reporter) -> list[tuple[Word, list[Word]]]:
@@ -68,28 +68,40 @@ def type_words(node: Node, reporter: Reporter) -> list[Word]:
     return found
 
 
-def read_types(nodes: Sequence[Node], parents: dict[str, Types], reporter: Reporter) -> None:
-    """Add the declarations of a `:types` section; a type that is declared twice has all the supertypes.
+def read_types(declared: Sequence[tuple[Word, list[Word]]], vocabulary: Vocabulary, reporter: Reporter) -> None:
+    """Declare the types of the `:types` sections; a type that is declared twice has all the supertypes.
+
+    Types that only stand to the right of a `-` are declared by that.
 
     Raises:
-        InputError: a type is above itself.
+        InputError: a type is above itself, or two types with different supertypes differ in case only.
     """
-    mentioned: dict[str, None] = {}
-    for word, supertypes in typed_list(nodes, reporter):
-        name = new_name(word, "type", word, reporter)
-        above = tuple(kind.text for kind in supertypes)
+    for word, _ in declared:
+        if vocabulary.spelling("type", new_name(word, "type", word, reporter).text) is None:
+            vocabulary.declare("type", (word.text,), reporter.source, word.index)
+    for word in (kind for _, supertypes in declared for kind in supertypes):
+        if vocabulary.spelling("type", word.text) is None:
+            vocabulary.declare("type", (word.text,), reporter.source, word.index)
+    parents: dict[str, Types] = {}
+    for word, supertypes in declared:
+        name = _declared_type(word, vocabulary, reporter)
+        above = tuple(_declared_type(kind, vocabulary, reporter) for kind in supertypes)
         if name == ROOT_TYPE:
             if not set(above) <= {ROOT_TYPE}:
                 raise reporter.error("'object' is above all types and cannot have a supertype", word)
             continue
+        if name != word.text:
+            differing = vocabulary.differ_in_case("type", name, word.text, reporter)
+            if set(above) != set(parents[name]):
+                raise reporter.error(f"{differing}, but have different supertypes; expected another name", word)
+            reporter.warn(f"{differing}; they are one type, '{name}'", word)
         parents[name] = tuple(dict.fromkeys((*parents.get(name, ()), *above)))
-        mentioned |= dict.fromkeys(above)
-    for kind in mentioned:
-        if kind != ROOT_TYPE:
-            parents.setdefault(kind, ())
+    for name in [name for above in parents.values() for name in above if name != ROOT_TYPE]:
+        parents.setdefault(name, ())
     if cycle := find_cycle(parents):
-        word = next(word for word, _ in typed_list(nodes, reporter) if word.text in cycle)
+        word = next(word for word, _ in declared if word.text in cycle)
         raise reporter.error(f"the types are in a cycle: {' - '.join(cycle)}", word)
+    vocabulary.declare_types(parents)
 
 
 def read_objects(start: int, end: int, vocabulary: Vocabulary, declared: dict[str, str], reporter: Reporter) -> None:
@@ -101,28 +113,30 @@ def read_objects(start: int, end: int, vocabulary: Vocabulary, declared: dict[st
         start: the token of the `(` of the section.
         end: the token after its `)`.
     """
-    index = _read_plain_objects(start + 2, end - 1, vocabulary, declared, reporter.source.tokens)
+    index = _read_plain_objects(start + 2, end - 1, vocabulary, declared, reporter)
     if index < end - 1:
         nodes = parse_group(reporter.source, start, index - 1).items
         _read_other_objects(nodes, vocabulary, declared, reporter)
 
 
 def _read_plain_objects(
-    start: int, end: int, vocabulary: Vocabulary, declared: dict[str, str], tokens: list[str]
+    start: int, end: int, vocabulary: Vocabulary, declared: dict[str, str], reporter: Reporter
 ) -> int:
     """Add new objects with a declared type, without a node for each; return the token where anything else begins."""
+    tokens = reporter.source.tokens
     while start < end:
         try:
             dash = tokens.index("-", start, end - 1)
         except ValueError:
             break
-        names, kind = tokens[start:dash], tokens[dash + 1]
-        is_plain = kind in vocabulary.types and vocabulary.objects.keys().isdisjoint(names)
-        if not is_plain or len(set(names)) < len(names) or not all(map(_PLAIN_NAME, names)) or not names:
+        names, kind = tokens[start:dash], vocabulary.spelling("type", tokens[dash + 1])
+        is_plain = kind is not None and vocabulary.are_new("object", names) and all(map(_PLAIN_NAME, names))
+        if kind is None or not is_plain or len(set(map(str.lower, names))) < len(names) or not names:
             break
         new = dict.fromkeys(names, kind)
         declared.update(new)
         vocabulary.objects.update(new)
+        vocabulary.declare("object", names, reporter.source, start)
         start = dash + 2
     return start
 
@@ -131,27 +145,47 @@ def _read_other_objects(
     nodes: Sequence[Node], vocabulary: Vocabulary, declared: dict[str, str], reporter: Reporter
 ) -> None:
     repeated: list[Word] = []
+    respelt: list[tuple[str, Word]] = []
     for word, types in typed_list(nodes, reporter):
-        name = new_name(word, "object", word, reporter)
+        new_name(word, "object", word, reporter)
         if len(types) > 1:
-            raise reporter.unsupported(f"object '{name}' must have one type; 'either' is for parameters", types[1])
-        kind = _known(types, vocabulary.types, reporter)[0]
-        before = vocabulary.objects.get(name)
-        if before is None:
-            vocabulary.objects[name] = declared[name] = kind
-        elif before != kind:
-            if before.count("+") == MAX_TYPES:
-                raise reporter.error(f"object '{name}' is declared with more than {MAX_TYPES} types", word)
-            reporter.warn(f"object '{name}' is of type '{before}' already, and now of type '{kind}', too", word)
-            own = vocabulary.constants if name in vocabulary.constants else declared
-            vocabulary.objects[name] = own[name] = vocabulary.joint_type(before, kind)
+            raise reporter.unsupported(f"object '{word.text}' must have one type; 'either' is for parameters", types[1])
+        kind = declared_types(types, vocabulary, reporter)[0]
+        name = vocabulary.spelling("object", word.text)
+        if name is None:
+            vocabulary.objects[word.text] = declared[word.text] = kind
+            vocabulary.declare("object", (word.text,), reporter.source, word.index)
+        elif name != word.text:
+            if vocabulary.objects[name] != kind:
+                differing = vocabulary.differ_in_case("object", name, word.text, reporter)
+                types_of = f"are of different types ('{kind}' and '{vocabulary.objects[name]}')"
+                raise reporter.error(f"{differing}, but {types_of}; expected another name", word)
+            respelt.append((name, word))
+        elif vocabulary.objects[name] != kind:
+            _join_types(word, kind, vocabulary, declared, reporter)
         elif name in vocabulary.borrowed:
             vocabulary.borrowed.remove(name)
+            vocabulary.declare("object", (name,), reporter.source, word.index)
         else:
             repeated.append(word)
     if repeated:
         others = f", and {len(repeated) - 1} more like it" if len(repeated) > 1 else ""
         reporter.warn(f"object '{repeated[0].text}' is declared again{others}", repeated[0])
+    if respelt:
+        name, word = respelt[0]
+        others = f"; and {len(respelt) - 1} more like it" if len(respelt) > 1 else ""
+        differing = vocabulary.differ_in_case("object", name, word.text, reporter)
+        reporter.warn(f"{differing}: they are one object, '{name}'{others}", word)
+
+
+def _join_types(word: Word, kind: str, vocabulary: Vocabulary, declared: dict[str, str], reporter: Reporter) -> None:
+    """Make an object one of a further type, too."""
+    name, before = word.text, vocabulary.objects[word.text]
+    if before.count("+") == MAX_TYPES:
+        raise reporter.error(f"object '{name}' is declared with more than {MAX_TYPES} types", word)
+    reporter.warn(f"object '{name}' is of type '{before}' already, and now of type '{kind}', too", word)
+    own = vocabulary.constants if name in vocabulary.constants else declared
+    vocabulary.objects[name] = own[name] = vocabulary.joint_type(before, kind)
 
 
 def read_parameters(
@@ -163,22 +197,33 @@ def read_parameters(
         distinct: a name that stands twice is an error; otherwise, where the names carry no meaning, only a warning.
     """
     found: list[Parameter] = []
-    names: set[str] = set()
+    names: dict[str, Word] = {}
     for word, types in typed_list(nodes, reporter):
         if not word.text.startswith("?") or word.text == "?":
             raise reporter.error(f"expected a variable such as '?x', found {describe(word)}", word)
-        if word.text in names:
-            message = f"variable '{word.text}' is declared twice in one list"
+        if word.lower in names:
+            before = names[word.lower]
+            respelt = f" (as '{before.text}', and case means nothing in HDDL)" if before.text != word.text else ""
+            message = f"variable '{word.text}' is declared twice in one list{respelt}"
             if distinct:
                 raise reporter.error(message, word)
             reporter.warn(message, word)
-        names.add(word.text)
-        found.append(Parameter(word.text, _known(types, vocabulary.types, reporter)))
+        names[word.lower] = word
+        found.append(Parameter(word.text, declared_types(types, vocabulary, reporter)))
     return tuple(found)
 
 
-def _known(types: list[Word], hierarchy: TypeHierarchy, reporter: Reporter) -> Types:
-    for word in types:
-        if word.text not in hierarchy:
-            raise reporter.error(unknown("type", word.text, (*hierarchy.parents, ROOT_TYPE)), word)
-    return tuple(dict.fromkeys(word.text for word in types)) or (ROOT_TYPE,)
+def declared_types(words: list[Word], vocabulary: Vocabulary, reporter: Reporter) -> Types:
+    """Return the types that words name; `object` where there are none.
+
+    Raises:
+        InputError: one is not declared.
+    """
+    return tuple(dict.fromkeys(_declared_type(word, vocabulary, reporter) for word in words)) or (ROOT_TYPE,)
+
+
+def _declared_type(word: Word, vocabulary: Vocabulary, reporter: Reporter) -> str:
+    name = vocabulary.spelling("type", word.text)
+    if name is None:
+        raise reporter.error(unknown("type", word.text, (*vocabulary.types.parents, ROOT_TYPE)), word)
+    return name

@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import PurePath
+from typing import Literal
 
+from statehtn.errors import Place
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
-from statehtn.hddl.tokens import shortened
+from statehtn.hddl.spelling import Spellings
+from statehtn.hddl.tokens import Source, shortened
 from statehtn.model import Parameter, Signature, TypeHierarchy
 from statehtn.model.types import ROOT_TYPE
 
 Types = tuple[str, ...]
-Scope = Mapping[str, Types]
-"""The variables that may be used, with their types."""
+Scope = Mapping[str, Parameter]
+"""The variables that may be used, by their names in lower case."""
+Kind = Literal["type", "object", "predicate", "function", "task", "method"]
+"""Names of one kind must differ by more than case; constants are objects, and actions are tasks."""
 
 
 class Vocabulary:
     """Everything that has been declared so far; `tasks` are the compound ones, `actions` the primitive ones.
+
+    Names are compared without case. All that this class returns, and all keys of its attributes, are spelt as they are
+    declared, so that names are compared as they are wherever the problem has been read.
 
     Args:
         problem_objects: gives the problem's objects with their types while the domain is read, which should declare
@@ -27,7 +37,7 @@ class Vocabulary:
         borrowed: constants that only the problem declares.
     """
 
-    def __init__(self, problem_objects: Callable[[], Mapping[str, str]] = dict) -> None:
+    def __init__(self, problem_objects: Callable[[], Vocabulary | None] = lambda: None) -> None:
         self._parents: dict[str, Types] = {}
         self.types = TypeHierarchy(self._parents)
         self.constants: dict[str, str] = {}
@@ -40,12 +50,73 @@ class Vocabulary:
         self._supertypes: dict[str, frozenset[str]] = {}
         self._overlaps: dict[tuple[Types, Types], bool] = {}
         self._problem_objects = problem_objects
+        self._spellings: defaultdict[Kind, Spellings] = defaultdict(Spellings)
+        self._spellings["type"].add((ROOT_TYPE,))
+        self._ranges: defaultdict[Kind, list[tuple[Source, int, int]]] = defaultdict(list)
 
     def declare_types(self, parents: Mapping[str, Types]) -> None:
         """Add types with their supertypes."""
         self._parents.update(parents)
+        self._spellings["type"].add(parents)
         self._supertypes.clear()
         self._overlaps.clear()
+
+    def declare(self, kind: Kind, names: Iterable[str], source: Source | None = None, start: int = 0) -> None:
+        """Note how new names are spelt.
+
+        Args:
+            names: of one kind.
+            source: where they stand, one token after the other; None where they do not come from a file.
+            start: the token of the first one.
+        """
+        names = tuple(names)
+        self._spellings[kind].add(names)
+        if source is not None:
+            self._ranges[kind].append((source, start, start + len(names)))
+
+    def spelling(self, kind: Kind, name: str) -> str | None:
+        """Return a name as it is declared; None if it is not."""
+        return self._spellings[kind].find(name)
+
+    def are_new(self, kind: Kind, names: Iterable[str]) -> bool:
+        """Tell whether none of the names is declared."""
+        return self._spellings[kind].has_none_of(names)
+
+    def place(self, kind: Kind, name: str) -> Place | None:
+        """Return where a name, spelt like this, was declared; None if not in a file."""
+        for source, start, end in self._ranges[kind]:
+            for index in range(start, end):
+                if source.tokens[index] == name:
+                    return source.place(index)
+        return None
+
+    def differ_in_case(self, kind: Kind, declared: str, name: str, reporter: Reporter) -> str:
+        """Return the beginning of a message about a declared name and another one that differs in case only."""
+        place = self.place(kind, declared)
+        if place is None:
+            where = ""
+        elif place.file == reporter.source.file:
+            where = f" (line {place.line}, column {place.column})"
+        else:
+            where = f" ({PurePath(place.file).name}:{place.line}:{place.column})"
+        return f"'{name}' and '{declared}'{where} differ in case only, which means nothing in HDDL"
+
+    def predicate(self, name: str) -> Signature | None:
+        """Return the declaration of a predicate."""
+        return self.predicates.get(self.spelling("predicate", name) or "")
+
+    def function(self, name: str) -> Signature | None:
+        """Return the declaration of a function."""
+        return self.functions.get(self.spelling("function", name) or "")
+
+    def task(self, name: str) -> Signature | None:
+        """Return the declaration of a task or an action."""
+        found = self.spelling("task", name) or ""
+        return self.tasks.get(found) or self.actions.get(found)
+
+    def is_action(self, name: str) -> bool:
+        """Tell whether an action is called like this."""
+        return self.spelling("task", name) in self.actions
 
     def joint_type(self, left: str, right: str) -> str:
         """Return the type of the objects that are of both types: the lower one of them, or a new one below both."""
@@ -56,6 +127,7 @@ class Vocabulary:
         name = f"{left}+{right}"
         while self._parents.setdefault(name, (left, right)) != (left, right):
             name += "+"
+        self.declare("type", (name,))
         self._overlaps.clear()
         return name
 
@@ -87,17 +159,28 @@ class Vocabulary:
         """Return a variable or an object; both must be declared."""
         if isinstance(node, Group):
             raise reporter.error(f"expected a variable or an object, found {describe(node)}", node)
-        if node.text in scope or node.text in self.objects:
-            return node.text
         if node.text.startswith("?"):
-            raise reporter.error(unknown("variable", node.text, scope), node)
-        kind = self._problem_objects().get(node.text)
-        if kind is not None and kind in self.types:
-            reporter.warn(f"'{shortened(node.text)}' is an object of the problem, not a constant of the domain", node)
-            self.constants[node.text] = self.objects[node.text] = kind
-            self.borrowed.add(node.text)
-            return node.text
-        raise reporter.error(unknown("object", node.text, self.objects), node)
+            variable = scope.get(node.lower)
+            if variable is None:
+                known = (parameter.name for parameter in scope.values())
+                raise reporter.error(unknown("variable", node.text, known), node)
+            return variable.name
+        name = self.spelling("object", node.text) or self._borrow(node, reporter)
+        if name is None:
+            raise reporter.error(unknown("object", node.text, self.objects), node)
+        return name
+
+    def _borrow(self, node: Word, reporter: Reporter) -> str | None:
+        """Make an object of the problem a constant, as it is spelt there; None if there is no such object."""
+        lender = self._problem_objects()
+        name = lender.spelling("object", node.text) if lender else None
+        if lender is None or name is None or lender.objects[name] not in self.types:
+            return None
+        reporter.warn(f"'{shortened(name)}' is an object of the problem, not a constant of the domain", node)
+        self.constants[name] = self.objects[name] = lender.objects[name]
+        self.declare("object", (name,))
+        self.borrowed.add(name)
+        return name
 
     def terms(
         self, kind: str, signature: Signature, head: Node, nodes: Sequence[Node], scope: Scope, reporter: Reporter
@@ -119,11 +202,10 @@ class Vocabulary:
             )
         terms = tuple(self.term(node, scope, reporter) for node in nodes)
         for node, term, parameter in zip(nodes, terms, wanted, strict=True):
-            if term in scope:
-                if not self.overlap(scope[term], parameter.types):
-                    raise reporter.error(
-                        self._wrong_type("variable", term, scope[term], parameter, kind, signature), node
-                    )
+            if term.startswith("?"):
+                types = scope[term.lower()].types
+                if not self.overlap(types, parameter.types):
+                    raise reporter.error(self._wrong_type("variable", term, types, parameter, kind, signature), node)
             elif self.supertypes(self.objects[term]).isdisjoint(parameter.types):
                 raise reporter.error(
                     self._wrong_type("object", term, (self.objects[term],), parameter, kind, signature), node
@@ -138,7 +220,12 @@ class Vocabulary:
         )
 
 
-def new_name(node: Node | None, kind: str, at: Node, reporter: Reporter) -> str:
+def scope_of(parameters: Iterable[Parameter]) -> dict[str, Parameter]:
+    """Return the scope in which these variables may be used."""
+    return {parameter.name.lower(): parameter for parameter in parameters}
+
+
+def new_name(node: Node | None, kind: str, at: Node, reporter: Reporter) -> Word:
     """Return the name that a declaration gives.
 
     Raises:
@@ -146,23 +233,24 @@ def new_name(node: Node | None, kind: str, at: Node, reporter: Reporter) -> str:
     """
     if node is None:
         raise reporter.error(f"expected the name of the {kind} after {describe(at)}", at)
-    if isinstance(node, Group) or node.text[0] in "?:" or node.text in ("-", "either"):
+    if isinstance(node, Group) or node.text[0] in "?:" or node.lower in ("-", "either"):
         raise reporter.error(f"expected the name of a {kind}, found {describe(node)}", node)
-    return node.text
+    return node
 
 
 RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists"})
 
 
-def unreserved(name: str, kind: str, at: Node, reporter: Reporter) -> str:
-    """Return the name of a predicate or task.
+def unreserved(node: Node | None, kind: str, at: Node, reporter: Reporter) -> Word:
+    """Return the name that the declaration of a predicate, function or task gives; as `new_name`.
 
     Raises:
-        InputError: formulas and task networks could not tell it from a word of the language.
+        InputError: also where formulas and task networks could not tell it from a word of the language.
     """
-    if name in RESERVED:
-        raise reporter.error(f"'{name}' is a word of HDDL and cannot name a {kind}", at)
-    return name
+    word = new_name(node, kind, at, reporter)
+    if word.lower in RESERVED:
+        raise reporter.error(f"'{word.text}' is a word of HDDL and cannot name a {kind}", word)
+    return word
 
 
 def words(nodes: Iterable[Node], what: str, reporter: Reporter) -> list[Word]:

@@ -51,7 +51,8 @@ COST_REQUIREMENTS = ("action-costs", "probabilistic-effects")
 def write_hddl(problem: Problem) -> tuple[str, str]:
     """Return the texts of the domain and of the problem.
 
-    Names must be lower case and free of spaces, parentheses and semicolons, as all names are that the reader gives.
+    Names must be free of spaces, parentheses and semicolons, and those of one kind differ by more than case, as all
+    names do that the reader gives.
 
     Raises:
         UnsupportedError: a cost is a Python callable, which has no HDDL form.

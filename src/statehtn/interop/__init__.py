@@ -42,7 +42,8 @@ def from_unified_planning(
 
     Conditions, constraints of task networks and costs are kept, or refused. Fluents with objects as values become
     predicates with the value as last argument. The metric is `MinimizeActionCosts`; without one, and with
-    `MinimizeSequentialPlanLength`, every action costs 1. Names become lower case, and what HDDL forbids in a name `_`.
+    `MinimizeSequentialPlanLength`, every action costs 1. What HDDL forbids in a name becomes `_`, and
+    names that differ in case only get a number.
 
     Args:
         problem: any that the engine supports; for plans take `statehtn.interop.Conversion`, which knows the names.

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import chain, count
 from typing import Any
 
 from statehtn.build.names import WORDS
+from statehtn.hddl.cost_reader import TOTAL_COST
+from statehtn.hddl.spelling import Spellings
 from statehtn.model import Problem
 from statehtn.model.types import ROOT_TYPE
 
@@ -57,16 +59,19 @@ class Vocabulary:
         if not self.types.knows(kind.name):
             if kind.father is not None:
                 self.our_type(kind.father)
-            self.types.pair(our_name(kind.name, {self.our_type(one) for one in self.up_types} | {ROOT_TYPE}), kind.name)
+            self.types.pair(our_name(kind.name, self._taken_types()), kind.name)
             self.up_types.append(kind)
         return self.types.ours(kind.name)
 
+    def _taken_types(self) -> Spellings:
+        return Spellings((ROOT_TYPE, *map(self.our_type, self.up_types)))
 
-def our_name(theirs: str, taken: Container[str]) -> str:
-    """Return a name that HDDL can write, as similar as can be, and that is not taken."""
-    name = _NOT_IN_NAMES.sub("_", theirs).lower().lstrip("?:-") or "unnamed"
+
+def our_name(theirs: str, taken: Spellings) -> str:
+    """Return a name that HDDL can write, as similar as can be, and that is not taken: UP distinguishes case."""
+    name = _NOT_IN_NAMES.sub("_", theirs).lstrip("?:-") or "unnamed"
     candidates = chain([name], (f"{name}-{number}" for number in count(2)))
-    return next(candidate for candidate in candidates if candidate not in taken and candidate not in WORDS)
+    return next(one for one in candidates if taken.find(one) is None and one.lower() not in WORDS)
 
 
 def vocabulary_of_up(problem: Any) -> Vocabulary:
@@ -83,10 +88,10 @@ def vocabulary_of_up(problem: Any) -> Vocabulary:
         (vocabulary.methods, problem.methods),
         (vocabulary.objects, problem.all_objects),
     ):
-        taken: set[str] = {"total-cost"} if names is vocabulary.fluents else set()
+        taken = Spellings((TOTAL_COST,) if names is vocabulary.fluents else ())
         for thing in things:
             name = our_name(thing.name, taken)
-            taken.add(name)
+            taken.add((name,))
             names.pair(name, thing.name)
     return vocabulary
 

@@ -13,6 +13,7 @@ from itertools import chain
 from typing import Any
 
 from statehtn.errors import UnsupportedError
+from statehtn.hddl.spelling import Spellings
 from statehtn.interop.names import Vocabulary, our_name
 from statehtn.model import (
     TRUE,
@@ -85,7 +86,7 @@ class Scope:
         return self._fresh(chain(self.variables.values(), used), name, kind)
 
     def _fresh(self, used: Iterable[Parameter], name: str, kind: Any) -> Parameter:
-        taken = {parameter.name[1:] for parameter in used}
+        taken = Spellings(parameter.name[1:] for parameter in used)
         return Parameter(f"?{our_name(name, taken)}", (our_type(kind, self.vocabulary),))
 
     def formula(self, node: Any) -> Formula:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from statehtn.errors import UnsupportedError
+from statehtn.hddl.spelling import Spellings
 from statehtn.interop.names import Vocabulary, our_name, vocabulary_of_up
 from statehtn.interop.read_actions import read_actions
 from statehtn.interop.read_formulas import Scope, conjunction, our_type
@@ -27,7 +28,7 @@ def read_up_problem(problem: Any) -> tuple[Problem, Vocabulary]:
             raise UnsupportedError(f"the problem has {part.replace('_', ' ')}, which this planner does not know")
     vocabulary = vocabulary_of_up(problem)
     named: set[str] = set()
-    name = our_name(problem.name or "problem", ())
+    name = our_name(problem.name or "problem", Spellings())
     actions = read_actions(problem, vocabulary, named)
     methods = [_method(method, vocabulary, named) for method in problem.methods]
     tasks = [_signature(vocabulary.tasks.ours(task.name), task.parameters, vocabulary) for task in problem.tasks]
@@ -75,7 +76,7 @@ def _fluents(problem: Any, vocabulary: Vocabulary) -> tuple[dict[str, Signature]
     for fluent in problem.fluents:
         signature = _signature(vocabulary.fluents.ours(fluent.name), fluent.signature, vocabulary)
         if fluent.type.is_user_type():
-            taken = {parameter.name[1:] for parameter in signature.parameters}
+            taken = Spellings(parameter.name[1:] for parameter in signature.parameters)
             value = Parameter(f"?{our_name('value', taken)}", (our_type(fluent.type, vocabulary),))
             signature = Signature(signature.name, (*signature.parameters, value))
         (predicates if not _is_number(fluent) else functions)[signature.name] = signature
@@ -101,14 +102,15 @@ def _method(method: Any, vocabulary: Vocabulary, named: set[str]) -> Method:
 
 def _network(network: Any, scope: Scope) -> TaskNetwork:
     """Return the task network of a method, or the initial one."""
-    labels: list[str] = []
+    labels = Spellings()
     positions: dict[str, int] = {}
     subtasks = []
     for position, subtask in enumerate(network.subtasks):
-        labels.append(our_name(subtask.identifier, labels))
+        label = our_name(subtask.identifier, labels)
+        labels.add((label,))
         positions[subtask.identifier] = position
         name = scope.vocabulary.tasks.ours(subtask.task.name)
-        subtasks.append(Subtask(labels[-1], name, tuple(map(scope.term, subtask.parameters))))
+        subtasks.append(Subtask(label, name, tuple(map(scope.term, subtask.parameters))))
     ordering = tuple(dict.fromkeys(_pair(one, positions) for one in network.temporal_constraints()))
     return TaskNetwork(tuple(subtasks), ordering, conjunction(map(scope.formula, network.non_temporal_constraints())))
 
