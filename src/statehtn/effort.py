@@ -21,6 +21,7 @@ class Statistics:
     parse_seconds: float | None = None
     ground_seconds: float | None = None
     search_seconds: float | None = None
+    validate_seconds: float | None = None
     peak_memory_mb: float | None = None
 
 

@@ -18,6 +18,21 @@ class LimitReached(Exception):
         super().__init__(status.value)
 
 
+ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)
+"""Exceptions that end a phase before it has anything to show."""
+
+
+def status_of(ending: BaseException) -> Status:
+    """Return the status of a run that one of `ENDINGS` ended."""
+    match ending:
+        case LimitReached(status=status):
+            return status
+        case MemoryError():
+            return Status.MEMORY_LIMIT
+        case _:
+            return Status.INTERRUPTED
+
+
 @dataclass(frozen=True, slots=True)
 class Limits:
     """A point in time and an amount of memory that a run must not pass; make one by `Limits.starting_now`.
@@ -41,6 +56,13 @@ class Limits:
             if value is not None and not value > 0:
                 raise UsageError(f"the {name} must be a positive number, found {value:g}")
         return Limits(None if time_limit is None else time.monotonic() + time_limit, memory_limit)
+
+    def with_grace(self, seconds: float) -> Limits:
+        """Return limits that leave at least so many seconds from now on, and a twentieth of the memory."""
+        return Limits(
+            None if self.deadline is None else max(self.deadline, time.monotonic() + seconds),
+            None if self.memory_mb is None else max(self.memory_mb, resident_mb() + self.memory_mb / 20),
+        )
 
     def check(self) -> None:
         """Raise `LimitReached` if the time is over or the memory is used up.

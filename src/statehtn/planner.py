@@ -13,16 +13,14 @@ from statehtn.core.progress import Progress
 from statehtn.core.search import improving_plans, last_of
 from statehtn.core.staged_run import SearchOutcome
 from statehtn.effort import Statistics, peak_memory_mb
-from statehtn.errors import InternalError
+from statehtn.found_plan import SECONDS_TO_VALIDATE, validated_and_priced
 from statehtn.hddl import read_hddl
-from statehtn.limits import LimitReached, Limits
-from statehtn.model.plan import Plan
+from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.query import Query
-from statehtn.result import PricedStep, Result
-from statehtn.risk import Attitude, Utility, problem_class
-from statehtn.validate import validate
+from statehtn.result import Result
+from statehtn.risk import Attitude, problem_class
 
 ProgressCallback = Callable[[Progress], None]
 
@@ -136,21 +134,6 @@ def no_plan(query: Query, status: Status, statistics: Statistics, bound: float |
     )
 
 
-ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)
-"""Exceptions that end a phase before it has anything to show."""
-
-
-def status_of(ending: BaseException) -> Status:
-    """Return the status of a run that one of `ENDINGS` ended."""
-    match ending:
-        case LimitReached(status=status):
-            return status
-        case MemoryError():
-            return Status.MEMORY_LIMIT
-        case _:
-            return Status.INTERRUPTED
-
-
 def measured_read(
     domain: str | os.PathLike[str],
     problem: str | os.PathLike[str],
@@ -210,13 +193,14 @@ def _solutions(
         yield no_plan(query, grounding, statistics)
         return
     start = time.perf_counter()
+    validating = 0.0
     latest: Result | None = None
     outcomes = _search(grounding, query, limits, progress, every_plan)
     while True:
         try:
             outcome = next(outcomes, None)
         except ENDINGS as ending:
-            spent = replace(statistics, search_seconds=time.perf_counter() - start)
+            spent = replace(statistics, search_seconds=time.perf_counter() - start - validating)
             yield no_plan(query, status_of(ending), spent) if latest is None else latest
             return
         if outcome is None:
@@ -227,12 +211,19 @@ def _solutions(
             generated=outcome.generated,
             evaluated=outcome.evaluated,
             dead_ends=outcome.dead_ends,
-            search_seconds=time.perf_counter() - start,
+            search_seconds=time.perf_counter() - start - validating,
         )
-        latest = no_plan(query, outcome.status, spent, outcome.lower_bound)
+        found = None
         if outcome.plan is not None:
-            plan, steps = priced_plan(problem, outcome.plan, query.utility)
-            latest = replace(latest, plan=plan, steps=steps)
+            begin = time.perf_counter()
+            left = limits.with_grace(SECONDS_TO_VALIDATE)
+            found = validated_and_priced(problem, outcome.plan, query.utility, left)
+            validating += time.perf_counter() - begin
+            spent = replace(spent, validate_seconds=validating)
+        latest = no_plan(query, outcome.status, spent, outcome.lower_bound)
+        if found is not None:
+            status = latest.status if found.validated else Status.SOLVED
+            latest = replace(latest, status=status, plan=found.plan, steps=found.steps, validated=found.validated)
         yield latest
 
 
@@ -263,19 +254,3 @@ def _search(
         yield from outcomes
     else:
         yield last_of(outcomes)
-
-
-def priced_plan(problem: Problem, found: Plan, utility: Utility) -> tuple[Plan, tuple[PricedStep, ...]]:
-    """Validate a plan independently of the search, and price its steps in the states they are executed in.
-
-    Raises:
-        InternalError: the plan is wrong.
-    """
-    validation = validate(problem, found)
-    if not validation.valid:
-        raise InternalError(f"the search returned a wrong plan: {'; '.join(validation.reasons)}")
-    steps = tuple(
-        PricedStep(step, law, law.mean, utility.risk_cost(law))
-        for step, law in zip(found.steps, validation.costs, strict=True)
-    )
-    return found.with_costs(validation.costs), steps

@@ -60,6 +60,8 @@ class Result:
         heuristic: the name of the heuristic.
         plan: the best plan found, with its decomposition.
         steps: the plan's actions with their costs; empty where there is no plan.
+        validated: whether the plan was checked independently of the search; false, too, where there is none. A limit
+            or an interruption may come first: then the status is `solved`, and the prices are those of the search.
         bound: a lower bound on the risk cost of every plan of the problem, in the domain's unit.
         statistics: the effort.
     """
@@ -71,6 +73,7 @@ class Result:
     heuristic: str
     plan: Plan | None = None
     steps: Sequence[PricedStep] = ()
+    validated: bool = False
     bound: float | None = None
     statistics: Statistics = field(default_factory=Statistics)
 
@@ -136,6 +139,7 @@ class Result:
             "expected_utility": self.expected_utility,
             "log10_expected_utility": self.log10_expected_utility,
             "lower_bound": self.lower_bound,
+            "validated": None if self.plan is None else self.validated,
             "statistics": asdict(self.statistics),
         }
 

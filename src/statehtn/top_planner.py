@@ -12,12 +12,11 @@ from statehtn.core.heuristics import ADMISSIBLE, why_refused
 from statehtn.core.top_plans import DISTINCT, TopOutcome, TopProgress, find_top_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import UsageError
-from statehtn.limits import Limits
-from statehtn.model.plan import Plan
+from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, validated_and_priced
+from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.planner import ENDINGS, measured_ground, measured_read, priced_plan, status_of
-from statehtn.result import PricedStep
+from statehtn.planner import measured_ground, measured_read
 from statehtn.risk import Attitude, Utility, problem_class, utility_for
 from statehtn.top_result import RankedPlan, TopPlans
 
@@ -25,8 +24,6 @@ TopProgressCallback = Callable[[TopProgress], None]
 
 DEFAULT_TOP_HEURISTIC = "potential"
 MOST_PLANS = 1_000_000_000
-SECONDS_TO_VALIDATE = 2.0
-"""So long after the time limit, or after what ended the search before, plans are still validated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,8 +166,10 @@ def _solve(
         dead_ends=outcome.dead_ends,
         search_seconds=time.perf_counter() - start,
     )
-    priced, stopped = _price(problem, query.utility, outcome, limits)
-    plans = tuple(_ranked(priced, outcome.proven, query.utility))
+    begin = time.perf_counter()
+    found, stopped = _validated(problem, query.utility, outcome, limits)
+    plans = tuple(_ranked(found, outcome.proven, query.utility))
+    statistics = replace(statistics, validate_seconds=time.perf_counter() - begin)
     if stopped is not None:
         status = Status.SOLVED if plans else stopped
     else:
@@ -184,49 +183,43 @@ def _solve(
     )
 
 
-_Priced = tuple[Plan, tuple[PricedStep, ...]]
-
-
-def _price(
+def _validated(
     problem: Problem, utility: Utility, outcome: TopOutcome, limits: Limits
-) -> tuple[list[_Priced], Status | None]:
-    """Validate and price the plans that were found, at least one, and say what ended that, or the search before.
+) -> tuple[list[FoundPlan], Status | None]:
+    """Validate and price the plans that were found, and say what ended that, or the search before.
 
     Raises:
         InternalError: a plan is wrong.
     """
-    priced: list[_Priced] = []
-    deadline = limits.deadline if outcome.stopped is None else time.monotonic()
-    try:
-        for plan in outcome.plans:
-            if priced and deadline is not None and time.monotonic() > deadline + SECONDS_TO_VALIDATE:
-                return priced, outcome.stopped or Status.TIME_LIMIT
-            priced.append(priced_plan(problem, plan, utility))
-    except (MemoryError, KeyboardInterrupt) as ending:
-        return priced, status_of(ending)
-    return priced, outcome.stopped
+    left = limits.with_grace(SECONDS_TO_VALIDATE)
+    found: list[FoundPlan] = []
+    stopped: Status | None = None
+    for plan in outcome.plans:
+        if stopped is None:
+            found.append(validated_and_priced(problem, plan, utility, left))
+            stopped = found[-1].stopped
+        else:
+            found.append(not_validated(plan, utility, stopped))
+    return found, outcome.stopped or stopped
 
 
-def _ranked(priced: Sequence[_Priced], proven: int, utility: Utility) -> Iterator[RankedPlan]:
+def _ranked(found: Sequence[FoundPlan], proven: int, utility: Utility) -> Iterator[RankedPlan]:
     """Yield the plans in their order.
 
     The core compares costs that are rounded down, so that plans that are equally good come in any order.
     """
 
-    def place(priced: _Priced) -> tuple[float, int, list[str]]:
-        _, steps = priced
-        cost = math.fsum(step.risk_cost for step in steps)
-        return float(f"{cost:.12g}"), len(steps), [str(step.step) for step in steps]
+    def place(one: FoundPlan) -> tuple[float, int, list[str]]:
+        cost = math.fsum(step.risk_cost for step in one.steps)
+        return float(f"{cost:.12g}"), len(one.steps), [str(step.step) for step in one.steps]
 
-    in_order = sorted(priced[:proven], key=place) + sorted(priced[proven:], key=place)
-    for index, (plan, steps) in enumerate(in_order):
-        yield RankedPlan(index + 1, index < proven, plan, steps, utility)
+    in_order = sorted(found[:proven], key=place) + sorted(found[proven:], key=place)
+    for index, one in enumerate(in_order):
+        yield RankedPlan(index + 1, index < proven, one.plan, one.steps, utility, one.validated)
 
 
 def _bound(outcome: TopOutcome, plans: Sequence[RankedPlan]) -> float | None:
     """Return what every plan costs that is not among these; at most as much as the last one, rounding aside."""
     if not plans:
         return None if outcome.plans else outcome.lower_bound
-    if len(plans) < len(outcome.plans):
-        return plans[-1].risk_cost
     return None if outcome.lower_bound is None else min(outcome.lower_bound, plans[-1].risk_cost)

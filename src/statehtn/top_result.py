@@ -25,6 +25,7 @@ class RankedPlan:
         plan: the plan, with its decomposition.
         steps: its actions with their costs.
         utility: the agent's utility function.
+        validated: whether it was checked independently of the search; a limit or an interruption may come first.
     """
 
     rank: int
@@ -32,6 +33,7 @@ class RankedPlan:
     plan: Plan
     steps: Sequence[PricedStep]
     utility: Utility
+    validated: bool = True
 
     @property
     def length(self) -> int:
@@ -63,6 +65,7 @@ class RankedPlan:
         return {
             "rank": self.rank,
             "proven": self.is_proven,
+            "validated": self.validated,
             "plan": [step.to_dict() for step in self.steps],
             "length": self.length,
             "expected_cost": self.expected_cost,

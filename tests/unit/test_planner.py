@@ -28,6 +28,7 @@ STATISTICS = {
     "parse_seconds",
     "ground_seconds",
     "search_seconds",
+    "validate_seconds",
     "peak_memory_mb",
 }
 KEYS = [
@@ -44,6 +45,7 @@ KEYS = [
     "expected_utility",
     "log10_expected_utility",
     "lower_bound",
+    "validated",
     "statistics",
 ]
 UNSOLVABLE = PROBLEM.replace("(away)", "(home)")

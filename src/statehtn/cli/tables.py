@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from statehtn.cli.long_table import LongTable
 from statehtn.display.top_plans import compact_actions
 from statehtn.effort import Statistics
 from statehtn.model.law import CostLaw
@@ -41,6 +42,7 @@ TOP_STOPS = {
     Status.MEMORY_LIMIT: "memory limit reached",
     Status.INTERRUPTED: "interrupted",
 }
+NOT_VALIDATED = "no: the run ended before the plan was checked; 'statehtn validate' checks a plan file (--output)"
 AGENTS = {"neutral": "a risk-neutral agent", "averse": "a risk-averse agent", "seeking": "a risk-seeking agent"}
 
 
@@ -51,7 +53,7 @@ def number(value: float | None) -> str:
 
 def readable_result(result: Result, stream: TextIO) -> str:
     """Return the plan with its price, what was proven, and the effort, in the form for a stream."""
-    parts: list[Table] = []
+    parts: list[Table | LongTable] = []
     if result.plan is not None:
         parts.append(_steps_table(result))
     parts.append(_summary(_summary_rows(result), STYLES.get(result.status, "bold red")))
@@ -60,14 +62,20 @@ def readable_result(result: Result, stream: TextIO) -> str:
 
 def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
     """Return the verdict on a plan, action by action; `costs` has a law for each step that can be executed."""
-    table = _table(("", "right"), ("action", "left"), ("", "left"), ("cost", "left"), ("expected", "right"))
+    texts: dict[int, tuple[str, str]] = {}  # of laws, which long plans repeat
+    shown = []
     for index, step in enumerate(steps):
+        cost = ("", "")
         if index < len(validation.costs):
-            law = validation.costs[index]
-            table.add_row(str(index + 1), str(step), "executed", str(law), number(law.mean))
+            law, state = validation.costs[index], "executed"
+            if id(law) not in texts:
+                texts[id(law)] = str(law), number(law.mean)
+            cost = texts[id(law)]
         else:
             state = "not reached" if index > len(validation.costs) else "fails"
-            table.add_row(str(index + 1), str(step), state, "", "")
+        shown.append((str(index + 1), str(step), state, *cost))
+    columns = (("", True), ("action", False), ("", False), ("cost", False), ("expected", True))
+    table = LongTable(columns, shown)
     rows = [("verdict", "valid")] if validation.valid else [("verdict", "invalid")]
     rows += [("because", reason) for reason in validation.reasons]
     if validation.valid:
@@ -179,24 +187,18 @@ def _log10_label(result: Result | TopPlans) -> str:
     return "-log10 |EU|" if result.attitude == "averse" else "log10 EU"
 
 
-def _steps_table(result: Result) -> Table:
-    table = _table(
-        ("", "right"), ("action", "left"), ("cost", "left"), ("expected", "right"), ("certainty equivalent", "right")
-    )
-    table.title = f"Plan for {_agent(result)}"
+def _steps_table(result: Result) -> LongTable:
+    texts: dict[int, tuple[str, ...]] = {}  # of priced steps, which long plans repeat
+    rows = []
     for index, priced in enumerate(result.steps, 1):
-        table.add_row(
-            str(index), str(priced.step), str(priced.law), number(priced.expected_cost), number(priced.risk_cost)
-        )
-    table.add_section()
-    table.add_row(
-        "",
-        "in all",
-        _range([priced.law for priced in result.steps]),
-        number(result.expected_cost),
-        number(result.risk_cost),
-    )
-    return table
+        if id(priced) not in texts:
+            prices = number(priced.expected_cost), number(priced.risk_cost)
+            texts[id(priced)] = (str(priced.step), str(priced.law), *prices)
+        rows.append((str(index), *texts[id(priced)]))
+    columns = (("", True), ("action", False), ("cost", False), ("expected", True), ("certainty equivalent", True))
+    laws = _range([priced.law for priced in result.steps])
+    totals = ("", "in all", laws, number(result.expected_cost), number(result.risk_cost))
+    return LongTable(columns, rows, totals, f"Plan for {_agent(result)}")
 
 
 def _range(laws: Sequence[CostLaw]) -> str:
@@ -210,6 +212,8 @@ def _range(laws: Sequence[CostLaw]) -> str:
 def _summary_rows(result: Result) -> list[tuple[str, str]]:
     found = result.plan is not None
     rows = [("status", ENDINGS[result.status])]
+    if found and not result.validated:
+        rows.append(("validated", NOT_VALIDATED))
     if found:
         rows.append(("expected cost", number(result.expected_cost)))
         worth = f"{number(result.risk_cost)} (this agent would as soon pay that for certain)"
@@ -247,6 +251,7 @@ def _effort_rows(effort: Statistics) -> list[tuple[str, str]]:
         ("reading", effort.parse_seconds),
         ("grounding", effort.ground_seconds),
         ("search", effort.search_seconds),
+        ("validation", effort.validate_seconds),
     )
     times = [f"{name} {seconds:.3f} s" for name, seconds in phases if seconds is not None]
     memory = [] if effort.peak_memory_mb is None else [f"{effort.peak_memory_mb:.0f} MB of memory"]
@@ -269,7 +274,7 @@ def _summary(rows: Iterable[tuple[str, str]], first_style: str) -> Table:
     return table
 
 
-def _render(tables: Iterable[Table], *, wrap: bool = True, stream: TextIO | None = None) -> str:
+def _render(tables: Iterable[Table | LongTable], *, wrap: bool = True, stream: TextIO | None = None) -> str:
     """Render for a stream: coloured and, unless told not to, wrapped on a terminal; plain and wide elsewhere.
 
     The stream is standard output if none is given.
@@ -284,7 +289,15 @@ def _render(tables: Iterable[Table], *, wrap: bool = True, stream: TextIO | None
         highlight=False,
         emoji=False,
     )
-    with console.capture() as capture:
-        for table in tables:
-            console.print(table)
-    return "\n".join(line.rstrip() for line in capture.get().splitlines()).strip("\n")
+    parts: list[str] = []
+    for table in tables:
+        found = table.lay_out(console.width) if isinstance(table, LongTable) else table
+        with console.capture() as capture:
+            if isinstance(found, Table):
+                console.print(found)
+            else:
+                console.print(Text(found[0], "bold"), soft_wrap=True)
+        parts.append("\n".join(line.rstrip() for line in capture.get().splitlines()))
+        if not isinstance(found, Table):
+            parts.append(found[1])
+    return "\n".join(parts).strip("\n")

@@ -1,100 +1,180 @@
-"""From the core's decomposition tree to a plan of the lifted problem: what was compiled in is taken out again."""
+"""From the core's decomposition tree to a plan of the lifted problem: what was compiled in is taken out again.
+
+A long plan repeats few ground actions and methods: what is the same wherever one of them stands is worked out once.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from operator import itemgetter
+from typing import cast
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.schemes import Scheme
-from statehtn.model import Decomposition, Plan, Step
+from statehtn.model import CostLaw, Decomposition, Plan, Step
 
 
-@dataclass
-class _Application:
-    """A scheme that was applied, and what has become of it: the lifted method's subtasks with their positions."""
+@dataclass(slots=True)
+class _Part:
+    """What a part of a method contributes to it: objects of its variables, and subtasks with their positions there."""
 
-    scheme: Scheme
     bindings: dict[str, str]
-    children: list[tuple[int, int | Decomposition]] = field(default_factory=list)
+    children: list[tuple[int, int | Decomposition]]
 
-    def add(self, index: int, child: int | _Application) -> None:
-        """Add what has become of the scheme's subtask of this index; a part of the same method is taken up."""
-        if isinstance(child, _Application) and child.scheme.is_part:
-            self.bindings |= child.bindings
-            self.children += child.children
-            return
-        position = self.scheme.subtasks[index].position
-        assert position is not None
-        self.children.append((position, child.decomposition() if isinstance(child, _Application) else child))
 
-    def decomposition(self) -> Decomposition:
-        """Return the decomposition by the whole method, once everything is there."""
-        scheme, method = self.scheme, self.scheme.method
+Child = int | Decomposition | _Part
+
+
+Placed = list[tuple[int, int | Decomposition]]
+"""What has become of subtasks, each with its position in the lifted network."""
+
+
+class _Scheme:
+    """A scheme in a ground method, with objects for its variables.
+
+    Args:
+        scheme: the scheme.
+        bindings: the objects.
+        parent: which of the ground method's schemes it decomposes a subtask of; 0 for the first.
+        position: where that subtask stands in the lifted method; None where it stands for a part of it.
+    """
+
+    def __init__(self, scheme: Scheme, bindings: dict[str, str], parent: int, position: int | None) -> None:
+        self.scheme = scheme
+        self.bindings = bindings
+        self.parent = parent
+        self.position = position
+        self._method = scheme.method
+        self._names = [parameter.name for parameter in scheme.method.parameters] if scheme.method else []
+        # Where no part of the method is elsewhere, everything is known but the children.
+        self._objects = self._look_up(bindings) if bindings.keys() >= set(self._names) else None
+        self._arguments = tuple(bindings.get(term, term) for term in scheme.arguments)
+
+    def finished(self, bindings: dict[str, str], children: Placed) -> Child:
+        """Return the decomposition by the whole method, once everything is there; a part of it for a part."""
+        if self.scheme.is_part:
+            return _Part(bindings, children)
+        method = self._method
         assert method is not None
-        arguments = tuple(self.bindings.get(term, term) for term in scheme.arguments)
-        bindings = tuple(self.bindings[parameter.name] for parameter in method.parameters)
-        return Decomposition(scheme.task, arguments, method.name, self.in_order(), bindings)
+        objects = self._look_up(bindings) if self._objects is None else self._objects
+        return Decomposition(method.task, self._arguments, method.name, in_order(children), objects)
 
-    def in_order(self) -> tuple[int | Decomposition, ...]:
-        """Return the children in the order of the lifted network."""
-        return tuple(child for _, child in sorted(self.children, key=itemgetter(0)))
+    def _look_up(self, bindings: dict[str, str]) -> tuple[str, ...]:
+        return tuple([bindings[name] for name in self._names])
+
+
+class _GroundMethod:
+    """A ground method of the core: the schemes that it applies at once.
+
+    Args:
+        grounding: the ground problem.
+        method: the core's number.
+        parts: the tasks that parts of methods decompose.
+    """
+
+    def __init__(self, grounding: Grounding, method: int, parts: set[str]) -> None:
+        handle, schemes = grounding.handle, grounding.encoding.schemes
+        self.schemes: list[_Scheme] = []
+        for number, part in enumerate(range(*handle.method_parts(method))):
+            scheme = schemes[handle.part_schema(part)]
+            names = (parameter.name for parameter in scheme.parameters)
+            bindings = dict(zip(names, grounding.objects(handle.part_arguments(part)), strict=True))
+            parent, index = handle.part_origin(part) if number else (0, 0)
+            position = self.schemes[parent].scheme.subtasks[index].position if number else None
+            self.schemes.append(_Scheme(scheme, bindings, parent, position))
+        self._places = [
+            (scheme, self.schemes[scheme].scheme.subtasks[index].position)
+            for scheme, index in handle.method_positions(method)
+        ]  # by subtask of the ground method: which scheme it belongs to, and its position in the lifted method
+        self._is_whole = len(self.schemes) == 1 and parts.isdisjoint(
+            subtask.task for subtask in self.schemes[0].scheme.subtasks
+        )
+
+    def apply(self, below: list[tuple[int, Child]]) -> tuple[dict[str, str], Placed]:
+        """Return what the schemes and what has become of their subtasks make together: bindings, and children."""
+        schemes, places = self.schemes, self._places
+        bindings = [scheme.bindings for scheme in schemes]
+        children: list[Placed] = [[] for _ in schemes]
+        waiting = [(*places[subtask], child) for subtask, child in below]
+        # Schemes come after the schemes whose subtasks they decompose.
+        for number in range(len(schemes), 0, -1):
+            if number < len(schemes):
+                scheme = schemes[number]
+                waiting = [(scheme.parent, scheme.position, scheme.finished(bindings[number], children[number]))]
+            for at, position, child in waiting:
+                if isinstance(child, _Part):
+                    bindings[at] = bindings[at] | child.bindings
+                    children[at] += child.children
+                else:
+                    assert position is not None
+                    children[at].append((position, child))
+        return bindings[0], children[0]
+
+    def finished(self, below: list[tuple[int, Child]]) -> Child:
+        """Return the decomposition by the lifted method, or a part of it."""
+        first = self.schemes[0]
+        if self._is_whole:  # the usual case
+            children = [(self._places[subtask][1], child) for subtask, child in below]
+            return first.finished(first.bindings, cast("Placed", children))
+        return first.finished(*self.apply(below))
 
 
 def read_trace(grounding: Grounding, result: _relax.SearchResult) -> Plan:
-    """Return the plan of a search result; the result must have one.
+    """Return the plan of a search result, with the costs that the search has seen; the result must have one.
 
     Artificial actions vanish, a choice between cases of an action becomes the action, and methods that were split or
     applied at once stand as in the domain.
     """
-    handle, nodes = grounding.handle, result.decomposition
-    actions, schemas = grounding.encoding.actions, handle.action_schema
+    nodes, schemas = result.decomposition, grounding.handle.action_schema
     steps: list[Step] = []
+    costs: list[CostLaw] = []
     step_of: dict[int, int] = {}  # by tree node
+    known: dict[int, Step | None] = {}  # by ground action; None for artificial ones
     for number in result.plan:
         task = nodes[number].task
-        action = actions[schemas[task]]
-        if action is not None:
+        if task not in known:
+            known[task] = _step(grounding, task, schemas[task])
+        step = known[task]
+        if step is not None:
             step_of[number] = len(steps)
-            steps.append(Step(action.name, grounding.objects(handle.action_arguments(task))))
+            steps.append(step)
+            costs.append(grounding.laws[task])
 
-    children: list[list[tuple[int, int | _Application]]] = [[] for _ in nodes]  # with the subtask's index
+    parts = {scheme.task for scheme in grounding.encoding.schemes if scheme.is_part}
+    methods: dict[int, _GroundMethod] = {}
+    below: list[list[tuple[int, Child]]] = [[] for _ in nodes]  # with the subtask's index
     # Children come after their parents, so that going backwards every node's children are complete.
-    for number in range(len(nodes) - 1, 0, -1):
+    for number in range(len(nodes) - 1, -1, -1):
         node = nodes[number]
-        assert node.parent is not None
+        parent = node.parent
         if node.method is None:
-            if number in step_of:
-                children[node.parent].append((node.subtask, step_of[number]))
-        elif parts := range(*handle.method_parts(node.method)):
-            children[node.parent].append((node.subtask, _apply(grounding, node.method, parts, children[number])))
+            if number in step_of and parent is not None:
+                below[parent].append((node.subtask, step_of[number]))
+            continue
+        method = methods.get(node.method)
+        if method is None:
+            method = methods[node.method] = _GroundMethod(grounding, node.method, parts)
+        if parent is None:
+            bindings, children = method.apply(below[0])
+        elif method.schemes:
+            below[parent].append((node.subtask, method.finished(below[number])))
         else:  # a choice; nothing is left of it where the chosen case is artificial
-            children[node.parent] += ((node.subtask, child) for _, child in children[number])
-    initial = nodes[0].method
-    assert initial is not None
-    root = _apply(grounding, initial, range(*handle.method_parts(initial)), children[0])
-    parameters = grounding.problem.parameters
-    return Plan(tuple(steps), root.in_order(), tuple(root.bindings[parameter.name] for parameter in parameters))
+            below[parent] += ((node.subtask, child) for _, child in below[number])
+    root = tuple(bindings[parameter.name] for parameter in grounding.problem.parameters)
+    return Plan(tuple(steps), in_order(children), root, tuple(costs))
 
 
-def _apply(
-    grounding: Grounding, method: int, parts: range, children: list[tuple[int, int | _Application]]
-) -> _Application:
-    """Return what the parts of a ground method, and what has become of its subtasks, make together."""
-    handle = grounding.handle
-    applications = []
-    for part in parts:
-        scheme = grounding.encoding.schemes[handle.part_schema(part)]
-        names = (parameter.name for parameter in scheme.parameters)
-        objects = grounding.objects(handle.part_arguments(part))
-        applications.append(_Application(scheme, dict(zip(names, objects, strict=True))))
-    positions = handle.method_positions(method)
-    for subtask, child in children:
-        part, index = positions[subtask]
-        applications[part].add(index, child)
-    # Parts come after the parts whose subtasks they decompose.
-    for number in range(len(applications) - 1, 0, -1):
-        parent, index = handle.part_origin(parts[number])
-        applications[parent].add(index, applications[number])
-    return applications[0]
+def _step(grounding: Grounding, action: int, schema: int) -> Step | None:
+    """Return a ground action as it stands in plans; None for an artificial one."""
+    lifted = grounding.encoding.actions[schema]
+    if lifted is None:
+        return None
+    return Step(lifted.name, grounding.objects(grounding.handle.action_arguments(action)))
+
+
+def in_order(children: Placed) -> tuple[int | Decomposition, ...]:
+    """Return the children in the order of the lifted network."""
+    if len(children) > 1:
+        children.sort(key=itemgetter(0))
+    return tuple([child for _, child in children])

@@ -12,13 +12,14 @@ Source: G. Behnke et al., the plan format of the IPC 2020 track on hierarchical 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from statehtn.errors import InputError, Place
-from statehtn.hddl.plan_matching import Child, match_children, topological_order
+from statehtn.hddl.plan_matching import Child, ChildrenMatcher, topological_order
 from statehtn.hddl.spelling import Spellings
 from statehtn.model.plan import Decomposition, Plan, Step
-from statehtn.model.problem import Problem, TaskNetwork
+from statehtn.model.problem import Problem
 
 TOP_TASK = "__top"  # some planners print the initial network as a method of a task of this name
 
@@ -30,22 +31,26 @@ def write_plan(plan: Plan, problem: Problem) -> str:
         plan: the plan; each of its steps belongs to one place in the decomposition.
         problem: the problem that it solves.
     """
-    lines = ["==>", *(" ".join((str(number), step.action, *step.arguments)) for number, step in enumerate(plan.steps))]
+    texts: dict[Step, str] = {}  # a long plan repeats few ground actions
+    for step in plan.steps:
+        if step not in texts:
+            texts[step] = " ".join((step.action, *step.arguments))
     nodes = list(plan.decompositions())
-    numbers = {id(node): len(plan.steps) + index for index, node in enumerate(nodes)}
+    numbers = {id(node): str(number) for number, node in enumerate(nodes, len(plan.steps))}
+    orders: dict[str, list[int]] = {}
 
-    def listed(children: tuple[int | Decomposition, ...], network: TaskNetwork | None) -> list[str]:
-        order = (
-            topological_order(network) if network and len(network.subtasks) == len(children) else range(len(children))
-        )
-        found = (children[index] for index in order)
-        return [str(child if isinstance(child, int) else numbers[id(child)]) for child in found]
+    def listed(children: tuple[int | Decomposition, ...], order: list[int]) -> list[str]:
+        found = [children[index] for index in order] if len(order) == len(children) else children
+        return [str(child) if isinstance(child, int) else numbers[id(child)] for child in found]
 
-    lines.append(" ".join(("root", *listed(plan.roots, problem.network))))
+    lines = ["==>", *(f"{number} {texts[step]}" for number, step in enumerate(plan.steps))]
+    lines.append(" ".join(("root", *listed(plan.roots, topological_order(problem.network)))))
     for node in nodes:
-        method = problem.domain.methods.get(node.method)
-        subtasks = listed(node.children, method.network if method else None)
-        lines.append(" ".join((str(numbers[id(node)]), node.task, *node.arguments, "->", node.method, *subtasks)))
+        if node.method not in orders:
+            method = problem.domain.methods.get(node.method)
+            orders[node.method] = topological_order(method.network) if method else []
+        subtasks = listed(node.children, orders[node.method])
+        lines.append(" ".join((numbers[id(node)], node.task, *node.arguments, "->", node.method, *subtasks)))
     return "\n".join([*lines, "<==", ""])
 
 
@@ -213,22 +218,23 @@ class _Builder:
 
     def build(self, children_first: list[int]) -> Plan:
         """Return the plan."""
-        domain = self._problem.domain
+        problem, lines, built = self._problem, self._lines, self._built
+        matchers: dict[str, ChildrenMatcher] = {}
         for number in children_first:
-            node = self._lines.nodes[number]
-            children = [self._built[child] for child in node.children]
-            method = domain.methods.get(node.method)
+            node = lines.nodes[number]
+            children: Sequence[Child] = [built[child] for child in node.children]
+            method = problem.domain.methods.get(node.method)
             if method is not None and method.task == node.task and len(method.arguments) == len(node.arguments):
-                children = match_children(method.network, children, method.arguments, node.arguments)
-            subtree = Decomposition(node.task, node.arguments, node.method, tuple(child.value for child in children))
-            firsts = [child.first for child in children if child.first is not None]
-            lasts = [child.last for child in children if child.last is not None]
-            self._built[number] = Child(
-                subtree, node.task, node.arguments, min(firsts, default=None), max(lasts, default=None)
-            )
-        roots = match_children(self._problem.network, [self._built[number] for number in self._lines.roots or []])
+                if method.name not in matchers:
+                    matchers[method.name] = ChildrenMatcher(method.network, method.arguments)
+                children = matchers[method.name].match(children, node.arguments)
+            subtree = Decomposition(node.task, node.arguments, node.method, tuple([child.value for child in children]))
+            first = min([child.first for child in children if child.first is not None], default=None)
+            last = max([child.last for child in children if child.last is not None], default=None)
+            built[number] = Child(subtree, node.task, node.arguments, first, last)
+        roots = ChildrenMatcher(problem.network).match([built[number] for number in lines.roots or []])
         return Plan(
-            tuple(self._lines.steps.values()),
+            tuple(lines.steps.values()),
             tuple(child.value for child in roots),
-            None if self._problem.parameters else (),
+            None if problem.parameters else (),
         )

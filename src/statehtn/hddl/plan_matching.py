@@ -24,36 +24,55 @@ class Child:
     last: int | None
 
 
-def match_children(
-    network: TaskNetwork, children: Sequence[Child], terms: tuple[str, ...] = (), objects: tuple[str, ...] = ()
-) -> list[Child]:
-    """Return the children in the order of the network's subtasks.
+class ChildrenMatcher:
+    """Puts the tasks that a plan lists for a network in the order of the network's subtasks.
 
     The assignment agrees with the subtasks' names, under one binding of variables with their arguments, and, if
     possible, with the network's ordering; the order of the file is kept if it does all that, or if nothing does.
 
     Args:
         network: the network of a method, or the initial one.
-        children: the tasks that the plan lists for it.
         terms: the arguments of the method's task.
-        objects: what they are bound to.
     """
-    if len(children) != len(network.subtasks):
-        return list(children)
-    bindings = _unify(terms, objects, {})
-    if bindings is None:
-        return list(children)
-    file_order = list(range(len(children)))
-    by_time = sorted(file_order, key=lambda index: children[index].first or 0)
-    for candidates, ordered in (
-        ([[index] for index in file_order], True),
-        (_candidates(network, children, by_time, bindings), True),
-        (_candidates(network, children, file_order, bindings), False),
-    ):
-        found = _Assignment(network, children, candidates, ordered).find(bindings)
-        if found is not None:
-            return [children[index] for index in found]
-    return list(children)
+
+    def __init__(self, network: TaskNetwork, terms: tuple[str, ...] = ()) -> None:
+        self._network = network
+        self._terms = terms
+        self._order = topological_order(network)
+        self._predecessors = _predecessors(network)
+
+    def match(self, children: Sequence[Child], objects: tuple[str, ...] = ()) -> Sequence[Child]:
+        """Return the children in the order of the subtasks; `objects` are what the terms are bound to."""
+        if len(children) != len(self._order):
+            return children
+        bindings = _unify(self._terms, objects, {})
+        if bindings is None or self._is_in_order(children, dict(bindings)):
+            return children
+        file_order = list(range(len(children)))
+        by_time = sorted(file_order, key=lambda index: children[index].first or 0)
+        for order, ordered in ((by_time, True), (file_order, False)):
+            candidates = _candidates(self._network, children, order, bindings)
+            search = _Assignment(self._network, self._order, self._predecessors, children, candidates, ordered)
+            found = search.find(bindings)
+            if found is not None:
+                return [children[index] for index in found]
+        return children
+
+    def _is_in_order(self, children: Sequence[Child], bindings: dict[str, str]) -> bool:
+        """Tell whether each child fits the subtask of its own index; the bindings are extended."""
+        ends = [0] * len(children)  # by subtask: the number of steps after which its child has ended
+        for index in self._order:
+            subtask, child = self._network.subtasks[index], children[index]
+            if child.task != subtask.task or len(child.arguments) != len(subtask.arguments):
+                return False
+            for term, name in zip(subtask.arguments, child.arguments, strict=True):
+                if (bindings.setdefault(term, name) if is_variable(term) else term) != name:
+                    return False
+            start = max([ends[before] for before in self._predecessors[index]], default=0)
+            if child.first is not None and child.first < start:
+                return False
+            ends[index] = start if child.last is None else max(start, child.last + 1)
+        return True
 
 
 def topological_order(network: TaskNetwork) -> list[int]:
@@ -93,20 +112,28 @@ class _Assignment:
 
     Args:
         network: the network with the subtasks.
+        order: a topological order of them.
+        predecessors: by subtask, those that are ordered before it.
         children: the tasks of the plan.
         candidates: for each subtask the indices of the children to try, in this order.
         ordered: a child may only start when what is ordered before it has ended.
     """
 
     def __init__(
-        self, network: TaskNetwork, children: Sequence[Child], candidates: list[list[int]], ordered: bool
+        self,
+        network: TaskNetwork,
+        order: list[int],
+        predecessors: list[list[int]],
+        children: Sequence[Child],
+        candidates: list[list[int]],
+        ordered: bool,
     ) -> None:
         self._network = network
+        self._order = order
+        self._predecessors = predecessors
         self._children = children
         self._candidates = candidates
         self._ordered = ordered
-        self._order = topological_order(network)
-        self._predecessors = _predecessors(network)
         self._ends = [0] * len(self._order)  # by subtask: the number of steps after which its child has ended
         self._used: set[int] = set()
         self._trials = 0

@@ -1,17 +1,27 @@
-"""Executes a plan step by step on the lifted model."""
+"""Executes a plan step by step on the lifted model.
+
+A long plan repeats few ground actions: what does not depend on the state is worked out once for each of them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from statehtn.model.cost_law import action_law, is_unconditional
+from statehtn.model.formula import TRUE
 from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan, Step
-from statehtn.model.problem import Action, Fact
+from statehtn.model.problem import Action, Effect, Fact
 from statehtn.model.types import Parameter
-from statehtn.validate.formulas import Bindings, holds, solutions, why_false
-from statehtn.validate.world import History, State, World, substitute
+from statehtn.validate.condition import NOWHERE, Condition
+from statehtn.validate.formulas import Bindings
+from statehtn.validate.history import History, State
+from statehtn.validate.world import World, substitute
+
+DueParts = tuple[tuple[int, tuple[str, ...]], ...]
+"""The conditional parts of a cost that are due: (index of the block, objects of its variables)."""
+NO_EFFECTS: tuple[frozenset[Fact], frozenset[Fact]] = (frozenset(), frozenset())
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,27 +41,38 @@ def execute(plan: Plan, world: World) -> Execution:
     """
     problem = world.problem
     history = History(problem.initial_state)
+    lifted: dict[str, _LiftedAction] = {}
+    known: dict[Step, _GroundAction | str] = {}
     costs: list[CostLaw] = []
     reasons: list[str] = []
-    for step in plan.steps:
-        action = problem.domain.actions.get(step.action)
-        state = history.at(history.end)
-        wrong = _wrong(step, action, state, world)
+    for step in world.limited(plan.steps):
+        action = known.get(step)
+        if action is None:
+            action = known[step] = _ground(step, lifted, world)
+        wrong = action if isinstance(action, str) else action.wrong(history)
         if wrong:
             reasons.append(f"step {history.end + 1} {step}: {wrong}")
-        elif action is not None and not reasons:
-            costs.append(_law(action, step, state, world))
-        if action is not None and len(step.arguments) == len(action.parameters):
-            effects = list(_effects(action, bindings_of(action, step), state, world))
-            history.advance(
-                (fact for fact, positive in effects if positive), (fact for fact, positive in effects if not positive)
-            )
-        else:
-            history.advance((), ())
+        elif isinstance(action, _GroundAction) and not reasons:
+            costs.append(action.cost(history))
+        history.advance(*(NO_EFFECTS if isinstance(action, str) else action.effects(history)))
     end = history.at(history.end)
-    if not holds(problem.goal, {}, end, world):
-        reasons.append(f"the goal does not hold in the end: {why_false(problem.goal, {}, end, world)}")
+    goal = Condition(problem.goal, world).ground({})
+    if not goal.holds(end):
+        reasons.append(f"the goal does not hold in the end: {goal.why_false(end)}")
     return Execution(history, tuple(costs), tuple(reasons))
+
+
+def _ground(step: Step, lifted: dict[str, _LiftedAction], world: World) -> _GroundAction | str:
+    """Return the action of a step; if there is no such action, say why."""
+    if step.action not in lifted:
+        action = world.problem.domain.actions.get(step.action)
+        if action is None:
+            return f"there is no action '{step.action}'"
+        lifted[step.action] = _LiftedAction(action, world)
+    parameters = lifted[step.action].action.parameters
+    if len(step.arguments) != len(parameters):
+        return f"expected {len(parameters)} arguments, found {len(step.arguments)}"
+    return _GroundAction(lifted[step.action], step)
 
 
 def wrong_arguments(parameters: tuple[Parameter, ...], arguments: tuple[str, ...], world: World) -> str | None:
@@ -66,37 +87,83 @@ def wrong_arguments(parameters: tuple[Parameter, ...], arguments: tuple[str, ...
     return None
 
 
-def bindings_of(action: Action, step: Step) -> Bindings:
-    """Return the objects of an action's parameters in a step."""
-    return {parameter.name: name for parameter, name in zip(action.parameters, step.arguments, strict=True)}
+class _LiftedAction:
+    """An action with its formulas compiled."""
+
+    def __init__(self, action: Action, world: World) -> None:
+        self.action = action
+        self.world = world
+        self.precondition = Condition(action.precondition, world)
+        self.effects = [(effect, Condition(effect.condition, world)) for effect in action.effects]
+        self.costs = [
+            (index, block, Condition(block.condition, world))
+            for index, block in enumerate(action.costs)
+            if not is_unconditional(block)
+        ]
 
 
-def _wrong(step: Step, action: Action | None, state: State, world: World) -> str | None:
-    if action is None:
-        return f"there is no action '{step.action}'"
-    wrong = wrong_arguments(action.parameters, step.arguments, world)
-    if wrong:
-        return wrong
-    bindings = bindings_of(action, step)
-    if not holds(action.precondition, bindings, state, world):
-        return f"its precondition does not hold: {why_false(action.precondition, bindings, state, world)}"
-    return None
+class _GroundAction:
+    """An action with objects for its parameters, and what it does in any state."""
+
+    def __init__(self, lifted: _LiftedAction, step: Step) -> None:
+        action = lifted.action
+        self._lifted = lifted
+        self._step = step
+        self._bindings = {p.name: name for p, name in zip(action.parameters, step.arguments, strict=True)}
+        self.wrong_arguments = wrong_arguments(action.parameters, step.arguments, lifted.world)
+        self.precondition = lifted.precondition.ground(self._bindings)
+        self._costs: dict[DueParts, CostLaw] = {}
+        certain = [(effect, condition) for effect, condition in lifted.effects if effect.condition == TRUE]
+        added, deleted = _changes(certain, self._bindings, NOWHERE)
+        self._certain = added, deleted - added
+        self._conditional = [pair for pair in lifted.effects if pair not in certain]
+
+    def wrong(self, history: History) -> str | None:
+        """Say why the action cannot be executed in the last state; None if it can."""
+        if self.wrong_arguments:
+            return self.wrong_arguments
+        if self.precondition.holds_now(history):
+            return None
+        return f"its precondition does not hold: {self.precondition.why_false(history.at(history.end))}"
+
+    def effects(self, history: History) -> tuple[frozenset[Fact], frozenset[Fact]]:
+        """Return the facts that it makes true in the last state, and those that it makes false."""
+        if not self._conditional:
+            return self._certain
+        added, deleted = _changes(self._conditional, self._bindings, history.at(history.end))
+        added |= self._certain[0]
+        return added, (deleted | self._certain[1]) - added
+
+    def cost(self, history: History) -> CostLaw:
+        """Return the law of its cost in the last state."""
+        lifted = self._lifted
+        due: DueParts = self._due_parts(history.at(history.end)) if lifted.costs else ()
+        if due not in self._costs:
+            problem = lifted.world.problem
+            self._costs[due] = action_law(
+                lifted.action, self._step.arguments, due, problem.function_values, problem.domain.has_unit_costs
+            )
+        return self._costs[due]
+
+    def _due_parts(self, state: State) -> DueParts:
+        return tuple(
+            (index, objects)
+            for index, block, condition in self._lifted.costs
+            for objects in sorted(
+                tuple(extended[parameter.name] for parameter in block.parameters)
+                for extended in condition.solutions(block.parameters, self._bindings, state)
+            )
+        )
 
 
-def _effects(action: Action, bindings: Bindings, state: State, world: World) -> Iterator[tuple[Fact, bool]]:
-    """Yield the facts that become true (True) and false (False); conditions are those of the state before."""
-    for effect in action.effects:
-        for extended in solutions(effect.condition, effect.parameters, bindings, state, world):
-            yield (effect.atom.predicate, *substitute(effect.atom.arguments, extended)), effect.positive
-
-
-def _law(action: Action, step: Step, state: State, world: World) -> CostLaw:
-    bindings = bindings_of(action, step)
-    parts = [
-        (index, tuple(extended[parameter.name] for parameter in block.parameters))
-        for index, block in enumerate(action.costs)
-        if not is_unconditional(block)
-        for extended in solutions(block.condition, block.parameters, bindings, state, world)
-    ]
-    domain = world.problem.domain
-    return action_law(action, step.arguments, parts, world.problem.function_values, domain.has_unit_costs)
+def _changes(
+    effects: Sequence[tuple[Effect, Condition]], bindings: Bindings, state: State
+) -> tuple[frozenset[Fact], frozenset[Fact]]:
+    """Return the facts that effects make true and false; conditions are those of the state before."""
+    added: set[Fact] = set()
+    deleted: set[Fact] = set()
+    for effect, condition in effects:
+        changed = added if effect.positive else deleted
+        for extended in condition.solutions(effect.parameters, bindings, state):
+            changed.add((effect.atom.predicate, *substitute(effect.atom.arguments, extended)))
+    return frozenset(added), frozenset(deleted)

@@ -8,13 +8,13 @@ comes after it, so if the earliest places contradict the plan, no places agree w
 from __future__ import annotations
 
 from dataclasses import dataclass
-from graphlib import TopologicalSorter
 
-from statehtn.model.formula import TRUE, And
-from statehtn.model.plan import Decomposition, Plan
+from statehtn.model.plan import Plan
 from statehtn.validate.decomposition import MatchedNetwork, Matching
-from statehtn.validate.formulas import is_satisfiable, predicates, text, why_false
-from statehtn.validate.world import History, World
+from statehtn.validate.formulas import predicates, text
+from statehtn.validate.history import History
+from statehtn.validate.tree import PlanTree
+from statehtn.validate.world import World
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,52 +28,71 @@ class _Bound:
 class _Level:
     """A network on the way down the decomposition: which child comes next, and where the children before it end."""
 
-    def __init__(self, matched: MatchedNetwork, start: _Bound) -> None:
-        self.matched = matched
+    __slots__ = ("at", "children", "ends", "lifted", "start")
+
+    def __init__(self, matched: MatchedNetwork, children: list[int], start: _Bound) -> None:
+        self.lifted = matched.lifted
+        self.children = children
         self.start = start
-        self.predecessors: list[list[int]] = [[] for _ in matched.children]
-        for before, after in matched.network.ordering:
-            self.predecessors[after].append(before)
-        self.pending = list(TopologicalSorter(dict(enumerate(self.predecessors))).static_order())[::-1]
-        self.ends: list[_Bound] = [start] * len(matched.children)
+        self.at = 0  # in the lifted network's order
+        self.ends = [start] * len(children)
 
     def lower_bound(self, child: int) -> _Bound:
         """Return where a child may start; what is ordered before it must have ended."""
-        return _latest([self.start, *(self.ends[before] for before in self.predecessors[child])])
+        bound = self.start
+        for before in self.lifted.predecessors[child]:
+            if self.ends[before].time > bound.time:
+                bound = self.ends[before]
+        return bound
 
     def end(self) -> _Bound:
         """Return where the network ends, once all its children have."""
-        return _latest([self.start, *self.ends])
+        bound = self.start
+        for end in self.ends:
+            if end.time > bound.time:
+                bound = end
+        return bound
 
 
-def check_ordering(plan: Plan, matching: Matching, world: World, history: History) -> list[str]:
+def check_ordering(tree: PlanTree, matching: Matching, world: World, history: History) -> list[str]:
     """Return what is wrong with the order of the steps and with method preconditions.
 
     The decomposition must match the methods (`match_networks` found nothing wrong).
     """
     reasons: list[str] = []
-    first_steps = _first_steps(plan)
-    stack = [_Level(matching.root, _Bound(0))]
+    first_steps = tree.first_steps()
+
+    def enter(number: int, lower: _Bound) -> None:
+        matched = matching.networks[number]
+        assert matched is not None
+        start = lower
+        if matched.lifted.precondition is not None:
+            start = _place(matched, lower, first_steps[number], world, history, reasons)
+        stack.append(_Level(matched, tree.children[number], start))
+
+    stack: list[_Level] = []
+    enter(0, _Bound(0))
     while True:
+        world.work()
         level = stack[-1]
-        if not level.pending:
+        order = level.lifted.order
+        while level.at < len(order):
+            index = order[level.at]
+            child, lower = level.children[index], level.lower_bound(index)
+            if child < 0:
+                enter(~child, lower)
+                break
+            if child < lower.time:
+                reasons.append(_too_early(tree.plan, child, lower))
+            level.ends[index] = _Bound(child + 1)
+            level.at += 1
+        else:
             stack.pop()
             if not stack:
                 return reasons
             parent = stack[-1]
-            index = parent.pending.pop()
-            parent.ends[index] = level.end()
-            continue
-        index = level.pending[-1]
-        child, lower = level.matched.children[index], level.lower_bound(index)
-        if isinstance(child, Decomposition):
-            matched = matching.nodes[id(child)]
-            stack.append(_Level(matched, _place(matched, lower, first_steps[id(child)], world, history, reasons)))
-        else:
-            if child < lower.time:
-                reasons.append(_too_early(plan, child, lower))
-            level.ends[index] = _Bound(child + 1)
-            level.pending.pop()
+            parent.ends[parent.lifted.order[parent.at]] = level.end()
+            parent.at += 1
 
 
 def _place(
@@ -81,21 +100,36 @@ def _place(
 ) -> _Bound:
     """Return the earliest state, from `lower` to the one before `first_step`, in which the precondition holds."""
     until = history.end if first_step is None else first_step
-    if matched.precondition == TRUE or lower.time > until:
-        # Nothing to wait for, or the steps below come too early anyway, which is said where they stand.
-        return lower
-    condition = And((matched.network.constraints, matched.precondition))
-    for time in (lower.time, *history.change_times(predicates(condition), lower.time, until)):
-        if is_satisfiable(condition, matched.unbound, matched.bindings, history.at(time), world):
-            return lower if time == lower.time else _Bound(time, matched)
+    if lower.time > until:
+        return lower  # the steps below come too early anyway, which is said where they stand
+    time = _first_time(matched, lower.time, until, world, history)
+    if time is not None:
+        return lower if time == lower.time else _Bound(time, matched)
     where = f"after step {lower.time}" if lower.time else "from the initial state on"
     where += "" if first_step is None else f" and before step {first_step + 1}"
-    if matched.unbound:
-        why = f"no {', '.join(map(str, matched.unbound))} makes {text(condition, matched.bindings)} true"
+    if matched.precondition is not None:
+        why = matched.precondition.why_false(history.at(until))
     else:
-        why = why_false(condition, matched.bindings, history.at(until), world)
+        assert matched.lifted.precondition is not None
+        condition = text(matched.lifted.precondition.formula, matched.bindings)
+        why = f"no {', '.join(map(str, matched.unbound))} makes {condition} true"
     reasons.append(f"{matched.title}: its precondition does not hold {where}: {why}")
     return lower
+
+
+def _first_time(matched: MatchedNetwork, after: int, until: int, world: World, history: History) -> int | None:
+    """Return the first time of `after <= time <= until` at which the precondition of a network holds."""
+    if matched.precondition is not None:
+        return matched.precondition.first_time(history, after, until)
+    condition = matched.lifted.precondition
+    assert condition is not None
+    if condition.is_satisfiable(matched.unbound, matched.bindings, history.at(after)):
+        return after
+    for time in history.change_times(set(predicates(condition.formula)), after, until):
+        world.work()
+        if condition.is_satisfiable(matched.unbound, matched.bindings, history.at(time)):
+            return time
+    return None
 
 
 def _too_early(plan: Plan, step: int, lower: _Bound) -> str:
@@ -104,16 +138,3 @@ def _too_early(plan: Plan, step: int, lower: _Bound) -> str:
     else:
         waits_for = f"step {lower.time} {plan.steps[lower.time - 1]}"
     return f"step {step + 1} {plan.steps[step]}: it must come after {waits_for}"
-
-
-def _first_steps(plan: Plan) -> dict[int, int | None]:
-    """Return for every compound node (by `id`) the first step below it, None if there is none."""
-    first: dict[int, int | None] = {}
-    for node in reversed(list(plan.decompositions())):
-        below = [child if isinstance(child, int) else first[id(child)] for child in node.children]
-        first[id(node)] = min((step for step in below if step is not None), default=None)
-    return first
-
-
-def _latest(bounds: list[_Bound]) -> _Bound:
-    return max(bounds, key=lambda bound: bound.time)
