@@ -83,10 +83,12 @@ class _GroundMethod:
             parent, index = handle.part_origin(part) if number else (0, 0)
             position = self.schemes[parent].scheme.subtasks[index].position if number else None
             self.schemes.append(_Scheme(scheme, bindings, parent, position))
+        # By subtask of the ground method: which scheme it belongs to, and its position in the lifted method. A choice
+        # between the cases of an action has no schemes.
         self._places = [
             (scheme, self.schemes[scheme].scheme.subtasks[index].position)
-            for scheme, index in handle.method_positions(method)
-        ]  # by subtask of the ground method: which scheme it belongs to, and its position in the lifted method
+            for scheme, index in (handle.method_positions(method) if self.schemes else ())
+        ]
         self._is_whole = len(self.schemes) == 1 and parts.isdisjoint(
             subtask.task for subtask in self.schemes[0].scheme.subtasks
         )
