@@ -23,7 +23,7 @@ KEYS = [
     *("plans", "proven", "all", "lower_bound", "statistics"),
 ]
 PLAN_KEYS = [
-    *("rank", "proven", "plan", "length", "expected_cost", "risk_cost"),
+    *("rank", "proven", "validated", "plan", "length", "expected_cost", "risk_cost"),
     *("expected_utility", "log10_expected_utility"),
 ]
 MOST = 50

@@ -10,7 +10,7 @@ import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.pricing import Prices
 from statehtn.core.progress import Progress
-from statehtn.core.trace import read_trace
+from statehtn.core.trace import TraceReader
 from statehtn.limits import Limits
 from statehtn.model.plan import Plan
 from statehtn.model.status import Status
@@ -48,6 +48,7 @@ class StagedRun:
         self, grounding: Grounding, prices: Prices, limits: Limits, progress: Callable[[Progress], None] | None
     ) -> None:
         self.grounding = grounding
+        self.reader = TraceReader(grounding)
         self.prices = prices
         self.limits = limits
         self.progress = progress
@@ -106,7 +107,7 @@ class StagedRun:
         """Return how the stages ended together."""
         return SearchOutcome(
             self.status,
-            None if self.best is None else read_trace(self.grounding, self.best),
+            None if self.best is None else self.reader.read(self.best),
             self.cost(self.lower_bound),
             sum(one.expanded for one in self.done),
             sum(one.generated for one in self.done),

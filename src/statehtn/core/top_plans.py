@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import overload
@@ -13,7 +13,7 @@ from statehtn.core.grounding import STOPPED, Grounding
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.pricing import price
 from statehtn.core.switches import SearchSwitches
-from statehtn.core.trace import read_trace
+from statehtn.core.trace import TraceReader
 from statehtn.limits import Limits
 from statehtn.model.plan import Plan
 from statehtn.model.status import Status
@@ -46,8 +46,8 @@ class TopProgress:
 class TracedPlans(Sequence[Plan]):
     """Plans that the core has found, each read when it is asked for: that takes longer than finding it."""
 
-    def __init__(self, grounding: Grounding, results: Sequence[_relax.SearchResult]) -> None:
-        self.grounding = grounding
+    def __init__(self, reader: TraceReader, results: Sequence[_relax.SearchResult]) -> None:
+        self.reader = reader
         self.results = results
 
     def __len__(self) -> int:
@@ -59,8 +59,11 @@ class TracedPlans(Sequence[Plan]):
     def __getitem__(self, index: slice) -> TracedPlans: ...
     def __getitem__(self, index: int | slice) -> Plan | TracedPlans:
         if isinstance(index, slice):
-            return TracedPlans(self.grounding, self.results[index])
-        return read_trace(self.grounding, self.results[index])
+            return TracedPlans(self.reader, self.results[index])
+        return self.reader.read(self.results[index])
+
+    def __iter__(self) -> Iterator[Plan]:
+        return map(self.reader.read, self.results)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +154,7 @@ def find_top_plans(
     statistics = result.statistics
     return TopOutcome(
         None if result.stop is None else STOPPED[result.stop],
-        TracedPlans(grounding, result.plans),
+        TracedPlans(TraceReader(grounding), result.plans),
         statistics.proven,
         result.is_all,
         cost(statistics.lower_bound),

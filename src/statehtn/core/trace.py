@@ -24,8 +24,6 @@ class _Part:
 
 
 Child = int | Decomposition | _Part
-
-
 Placed = list[tuple[int, int | Decomposition]]
 """What has become of subtasks, each with its position in the lifted network."""
 
@@ -122,57 +120,78 @@ class _GroundMethod:
         return first.finished(*self.apply(below))
 
 
-def read_trace(grounding: Grounding, result: _relax.SearchResult) -> Plan:
-    """Return the plan of a search result, with the costs that the search has seen; the result must have one.
+class TraceReader:
+    """Reads plans from results of searches in one ground problem.
 
-    Artificial actions vanish, a choice between cases of an action becomes the action, and methods that were split or
-    applied at once stand as in the domain.
+    Args:
+        grounding: the ground problem.
     """
-    nodes, schemas = result.decomposition, grounding.handle.action_schema
-    steps: list[Step] = []
-    costs: list[CostLaw] = []
-    step_of: dict[int, int] = {}  # by tree node
-    known: dict[int, Step | None] = {}  # by ground action; None for artificial ones
-    for number in result.plan:
-        task = nodes[number].task
-        if task not in known:
-            known[task] = _step(grounding, task, schemas[task])
-        step = known[task]
-        if step is not None:
-            step_of[number] = len(steps)
-            steps.append(step)
-            costs.append(grounding.laws[task])
 
-    parts = {scheme.task for scheme in grounding.encoding.schemes if scheme.is_part}
-    methods: dict[int, _GroundMethod] = {}
-    below: list[list[tuple[int, Child]]] = [[] for _ in nodes]  # with the subtask's index
-    # Children come after their parents, so that going backwards every node's children are complete.
-    for number in range(len(nodes) - 1, -1, -1):
-        node = nodes[number]
-        parent = node.parent
-        if node.method is None:
-            if number in step_of and parent is not None:
-                below[parent].append((node.subtask, step_of[number]))
-            continue
-        method = methods.get(node.method)
-        if method is None:
-            method = methods[node.method] = _GroundMethod(grounding, node.method, parts)
-        if parent is None:
-            bindings, children = method.apply(below[0])
-        elif method.schemes:
-            below[parent].append((node.subtask, method.finished(below[number])))
-        else:  # a choice; nothing is left of it where the chosen case is artificial
-            below[parent] += ((node.subtask, child) for _, child in below[number])
-    root = tuple(bindings[parameter.name] for parameter in grounding.problem.parameters)
-    return Plan(tuple(steps), in_order(children), root, tuple(costs))
+    def __init__(self, grounding: Grounding) -> None:
+        self._grounding = grounding
+        self._schemas = grounding.handle.action_schema
+        self._parts = {scheme.task for scheme in grounding.encoding.schemes if scheme.is_part}
+        self._steps: dict[int, Step | None] = {}  # by ground action; None for artificial ones
+        self._methods: dict[int, _GroundMethod] = {}
 
+    def read(self, result: _relax.SearchResult) -> Plan:
+        """Return the plan of a search result, with the costs that the search has seen; the result must have one.
 
-def _step(grounding: Grounding, action: int, schema: int) -> Step | None:
-    """Return a ground action as it stands in plans; None for an artificial one."""
-    lifted = grounding.encoding.actions[schema]
-    if lifted is None:
-        return None
-    return Step(lifted.name, grounding.objects(grounding.handle.action_arguments(action)))
+        Artificial actions vanish, a choice between cases of an action becomes the action, and methods that were split
+        or applied at once stand as in the domain.
+        """
+        nodes = result.decomposition
+        steps: list[Step] = []
+        costs: list[CostLaw] = []
+        step_of: dict[int, int] = {}  # by tree node
+        for number in result.plan:
+            action = nodes[number].task
+            step = self._step(action)
+            if step is not None:
+                step_of[number] = len(steps)
+                steps.append(step)
+                costs.append(self._grounding.laws[action])
+        bindings, children = self._decomposition(nodes, step_of)
+        root = tuple(bindings[parameter.name] for parameter in self._grounding.problem.parameters)
+        return Plan(tuple(steps), in_order(children), root, tuple(costs))
+
+    def _decomposition(
+        self, nodes: list[_relax.DecompositionNode], step_of: dict[int, int]
+    ) -> tuple[dict[str, str], Placed]:
+        """Return what the initial network's variables are bound to, and what becomes of its tasks."""
+        below: list[list[tuple[int, Child]]] = [[] for _ in nodes]  # with the subtask's index
+        # Children come after their parents, so that going backwards every node's children are complete.
+        for number in range(len(nodes) - 1, 0, -1):
+            node = nodes[number]
+            parent = node.parent
+            assert parent is not None
+            if node.method is None:
+                if number in step_of:
+                    below[parent].append((node.subtask, step_of[number]))
+                continue
+            method = self._method(node.method)
+            if method.schemes:
+                below[parent].append((node.subtask, method.finished(below[number])))
+            else:  # a choice; nothing is left of it where the chosen case is artificial
+                below[parent] += ((node.subtask, child) for _, child in below[number])
+            below[number] = []
+        initial = nodes[0].method
+        assert initial is not None
+        return self._method(initial).apply(below[0])
+
+    def _step(self, action: int) -> Step | None:
+        """Return a ground action as it stands in plans; None for an artificial one."""
+        if action not in self._steps:
+            lifted = self._grounding.encoding.actions[self._schemas[action]]
+            objects = self._grounding.objects(self._grounding.handle.action_arguments(action))
+            self._steps[action] = None if lifted is None else Step(lifted.name, objects)
+        return self._steps[action]
+
+    def _method(self, method: int) -> _GroundMethod:
+        found = self._methods.get(method)
+        if found is None:
+            found = self._methods[method] = _GroundMethod(self._grounding, method, self._parts)
+        return found
 
 
 def in_order(children: Placed) -> tuple[int | Decomposition, ...]:
