@@ -119,7 +119,7 @@ def looks(problem: Problem, plan: Plan) -> int:
 def test_the_work_of_validation_is_linear_in_the_length_of_a_totally_ordered_plan(files: tuple[str, str]) -> None:
     problem = read_hddl(*files)
     small, large = looks(problem, walk(10_000)), looks(problem, walk(20_000))
-    assert 40 < small
+    assert small > 40
     assert large < 2.2 * small
 
 
