@@ -6,7 +6,7 @@ Usage: python examples/vehicle.py
 from __future__ import annotations
 
 import statehtn
-from statehtn import chance, equal, when
+from statehtn import Attitude, chance, equal, when
 
 
 def vehicle() -> statehtn.Problem:
@@ -87,5 +87,6 @@ def vehicle() -> statehtn.Problem:
 
 if __name__ == "__main__":
     problem = vehicle()
-    for attitude, alpha in (("averse", 0.9), ("neutral", None), ("seeking", 0.9)):
+    for attitude in (Attitude.AVERSE, Attitude.NEUTRAL, Attitude.SEEKING):
+        alpha = None if attitude is Attitude.NEUTRAL else 0.9
         print(f"{attitude}:\n{statehtn.plan(problem, attitude=attitude, alpha=alpha)}\n")

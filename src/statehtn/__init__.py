@@ -17,6 +17,7 @@ from statehtn.model.status import Status
 from statehtn.validate import Validation, validate  # a package of this name: its function has to come after it
 
 if TYPE_CHECKING:
+    __version__: str
     from statehtn.attitudes import AttitudeComparison, compare_attitudes
     from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
     from statehtn.build.cost_file import read_costs
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
         relax_to_pddl,
         to_unified_planning,
     )
-    from statehtn.planner import plan
+    from statehtn.planner import improving, plan
     from statehtn.query import SOLVERS
     from statehtn.result import PricedStep, Result
     from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
@@ -82,6 +83,7 @@ __all__ = [
     "exists",
     "forall",
     "from_unified_planning",
+    "improving",
     "plan",
     "read_costs",
     "read_hddl",
@@ -120,7 +122,7 @@ _MODULES_FOR_LATER = {
         "relax_to_pddl",
         "to_unified_planning",
     ),
-    "planner": ("plan",),
+    "planner": ("improving", "plan"),
     "query": ("SOLVERS",),
     "result": ("PricedStep", "Result"),
     "risk": ("Attitude", "Exponential", "Neutral", "Utility", "utility_for"),
@@ -132,21 +134,25 @@ _MODULES_FOR_LATER = {
 _LATER = {name: f"statehtn.{module}" for module, names in _MODULES_FOR_LATER.items() for name in names}
 
 
-def __getattr__(name: str) -> Any:
-    """Import what is asked for."""
-    if name in _LATER:
-        from importlib import import_module
+if not TYPE_CHECKING:  # a type checker would take every name, also a misspelt one
 
-        value = globals()[name] = getattr(import_module(_LATER[name]), name)
-        return value
-    if name != "__version__":
-        raise AttributeError(f"module 'statehtn' has no attribute '{name}'")
-    from importlib.metadata import PackageNotFoundError, version
+    def __getattr__(name: str) -> Any:
+        """Import what is asked for."""
+        if name in _LATER:
+            from importlib import import_module
 
-    try:
-        return version("statehtn")
-    except PackageNotFoundError:
-        return "0 (not installed)"
+            value = globals()[name] = getattr(import_module(_LATER[name]), name)
+            return value
+        if name != "__version__":
+            from statehtn.expected import did_you_mean
+
+            raise AttributeError(f"module 'statehtn' has no attribute '{name}'{did_you_mean(name, __all__)}")
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            return version("statehtn")
+        except PackageNotFoundError:
+            return "0 (not installed)"
 
 
 def __dir__() -> list[str]:

@@ -10,11 +10,14 @@ from typing import Any
 
 from statehtn.display.comparison import ComparedPlan, Reason, comparison_html, comparison_text
 from statehtn.errors import UsageError
+from statehtn.expected import items, number, one_of, whole_number
+from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.planner import ProgressCallback, plan
+from statehtn.query import HeuristicName, SearchName, SolverName
 from statehtn.result import PricedStep, Result
-from statehtn.risk import Attitude, plan_risk_cost
+from statehtn.risk import Attitude, AttitudeName, plan_risk_cost
 
 Cells = tuple["PricedStep | None", ...]
 
@@ -89,7 +92,13 @@ class AttitudeComparison:
         """Return where the plan of an agent parts from another's, priced by the first; indices into `results`.
 
         The differences between the costs add up to the difference between the prices of the two plans.
+
+        Raises:
+            UsageError: there is no such agent.
         """
+        for index in (agent, other):
+            if not 0 <= whole_number(index, "the number of an agent") < len(self.results):
+                raise UsageError(f"the number of an agent must be from 0 to {len(self.results) - 1}, found {index}")
         mine, its = self.results[agent], self.results[other]
         if not (mine and its):
             return ()
@@ -182,10 +191,10 @@ def compare_attitudes(
     problem: Problem,
     alpha: float | Iterable[float] = 1.0,
     *,
-    attitudes: Iterable[Attitude | str] = tuple(Attitude),
-    solver: str = "state",
-    heuristic: str | None = None,
-    search: str = "astar",
+    attitudes: Iterable[Attitude | AttitudeName] = tuple(Attitude),
+    solver: SolverName = "state",
+    heuristic: HeuristicName | None = None,
+    search: SearchName = "astar",
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
@@ -206,11 +215,11 @@ def compare_attitudes(
         UsageError: an argument is out of its range, or there are no agents.
         InputError, UnsupportedError: as `plan`.
     """
-    alphas = sorted({float(alpha)} if isinstance(alpha, int | float) else set(map(float, alpha)))
-    try:
-        wanted = {Attitude(attitude) for attitude in attitudes}
-    except ValueError as error:
-        raise UsageError(f"{error}; there are {', '.join(Attitude)}") from None
+    expect_problem(problem)
+    given = items(alpha, "alpha") if isinstance(alpha, Iterable) else [alpha]
+    alphas = sorted({number(value, "alpha") for value in given})
+    names = [attitudes] if isinstance(attitudes, str) else items(attitudes, "'attitudes'")
+    wanted = {Attitude(one_of(attitude, list(Attitude), "attitude")) for attitude in names}
     agents: list[tuple[Attitude, float | None]] = []
     if Attitude.AVERSE in wanted:
         agents += [(Attitude.AVERSE, value) for value in reversed(alphas)]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from dataclasses import dataclass
 
 from statehtn.errors import UsageError
+from statehtn.expected import number
 from statehtn.model.status import Status
 
 
@@ -52,10 +54,8 @@ class Limits:
         Raises:
             UsageError: a limit is not positive.
         """
-        for name, value in (("time limit", time_limit), ("memory limit", memory_limit)):
-            if value is not None and not value > 0:
-                raise UsageError(f"the {name} must be a positive number, found {value:g}")
-        return Limits(None if time_limit is None else time.monotonic() + time_limit, memory_limit)
+        seconds = _positive("time limit", time_limit)
+        return Limits(None if seconds is None else time.monotonic() + seconds, _positive("memory limit", memory_limit))
 
     def with_grace(self, seconds: float) -> Limits:
         """Return limits that leave at least so many seconds from now on, and a twentieth of the memory."""
@@ -73,6 +73,20 @@ class Limits:
             raise LimitReached(Status.TIME_LIMIT)
         if self.memory_mb is not None and resident_mb() > self.memory_mb:
             raise LimitReached(Status.MEMORY_LIMIT)
+
+
+def _positive(name: str, value: float | None) -> float | None:
+    """Return a limit; None if there is none, or an infinite one.
+
+    Raises:
+        UsageError: it is not positive.
+    """
+    if value is None:
+        return None
+    limit = number(value, f"the {name}")
+    if not limit > 0:
+        raise UsageError(f"the {name} must be a positive number, found {limit:g}")
+    return None if math.isinf(limit) else limit
 
 
 def resident_mb(process: int | None = None) -> float:

@@ -13,14 +13,16 @@ from statehtn.core.progress import Progress
 from statehtn.core.search import improving_plans, last_of
 from statehtn.core.staged_run import SearchOutcome
 from statehtn.effort import Statistics, peak_memory_mb
+from statehtn.expected import function
 from statehtn.found_plan import SECONDS_TO_VALIDATE, validated_and_priced
 from statehtn.hddl import read_hddl
 from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.query import Query
+from statehtn.query import BranchName, HeuristicName, Query, SearchName, SolverName
 from statehtn.result import Result
-from statehtn.risk import Attitude, problem_class
+from statehtn.risk import Attitude, AttitudeName, problem_class
 
 ProgressCallback = Callable[[Progress], None]
 
@@ -28,13 +30,13 @@ ProgressCallback = Callable[[Progress], None]
 def plan(
     problem: Problem,
     *,
-    attitude: Attitude | str = Attitude.NEUTRAL,
+    attitude: Attitude | AttitudeName = Attitude.NEUTRAL,
     alpha: float | None = None,
-    solver: str = "state",
-    heuristic: str | None = None,
-    search: str = "astar",
+    solver: SolverName = "state",
+    heuristic: HeuristicName | None = None,
+    search: SearchName = "astar",
     weight: float | None = None,
-    branch: str | None = None,
+    branch: BranchName | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
@@ -66,7 +68,9 @@ def plan(
             for this agent (a heavy tail, for an averse one).
         UnsupportedError: the problem asks for something that the planner does not do.
     """
+    expect_problem(problem)
     query = Query.of(attitude, alpha, solver, heuristic, search, weight, branch)
+    function(progress, "progress")
     limits = Limits.starting_now(time_limit, memory_limit)
     return _solve(problem, query, limits, progress, Statistics())
 
@@ -74,19 +78,22 @@ def plan(
 def improving(
     problem: Problem,
     *,
-    attitude: Attitude | str = Attitude.NEUTRAL,
+    attitude: Attitude | AttitudeName = Attitude.NEUTRAL,
     alpha: float | None = None,
-    heuristic: str | None = None,
+    heuristic: HeuristicName | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
 ) -> Iterator[Result]:
-    """Search as `plan` does with `search="anytime"`, and yield each better plan when it is found.
+    """Search as `plan` does with `search="anytime"`, and yield each better plan as soon as it is found.
 
-    The last result is what `plan` returns. Arguments and errors are those of `plan`; the time between two results
-    that the caller takes counts, too.
+    A robot takes the best plan so far when it has to go; the last result is what `plan` returns. `problem`, `attitude`,
+    `alpha`, `heuristic`, `time_limit`, `memory_limit` and `progress` are those of `plan`, and so are the errors; they
+    are raised at once. The time that the caller takes between two results counts, too.
     """
+    expect_problem(problem)
     query = Query.of(attitude, alpha, heuristic=heuristic, search="anytime")
+    function(progress, "progress")
     limits = Limits.starting_now(time_limit, memory_limit)
     return _solutions(problem, query, limits, progress, Statistics(), every_plan=True)
 

@@ -6,12 +6,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Literal, cast
 
 from statehtn.core.heuristics import HEURISTICS, PORTFOLIO, WEIGHTED, why_refused
 from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS
 from statehtn.core.stages import SEARCHES
 from statehtn.errors import UsageError
-from statehtn.risk import Attitude, Utility, utility_for
+from statehtn.expected import number, one_of
+from statehtn.risk import Attitude, AttitudeName, Utility, utility_for
 
 SOLVERS: Mapping[str, str] = MappingProxyType(
     {
@@ -24,6 +26,13 @@ HEURISTIC_CHOICES = (PORTFOLIO, *HEURISTICS)
 """What may be asked for as a heuristic."""
 PORTFOLIO_SEARCHES = ("astar", "anytime")
 DEFAULT_WEIGHT = 2.0
+
+
+# The same names for type checkers.
+SolverName = Literal["state", "plan"]
+SearchName = Literal["astar", "weighted", "greedy", "anytime"]
+HeuristicName = Literal["auto", "blind", "tdg", "hmax", "lmcut", "potential", "potential-hmax", "add", "ff"]
+BranchName = Literal["fewest", "all"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,22 +61,20 @@ class Query:
         Raises:
             UsageError: a name is unknown, a number out of range, or they do not go together.
         """
-        utility = utility_for(attitude, alpha)
-        for kind, name, known in (
-            ("solver", solver, SOLVERS),
-            ("heuristic", heuristic, (None, *HEURISTIC_CHOICES)),
-            ("search", search, SEARCHES),
-            ("branch", branch, (None, *BRANCHES)),
-        ):
-            if name not in known:
-                raise UsageError(f"unknown {kind} '{name}'; there are {', '.join(filter(None, known))}")
+        utility = utility_for(cast("AttitudeName", attitude), alpha)
+        one_of(solver, SOLVERS, "solver")
+        one_of(search, SEARCHES, "search")
+        if heuristic is not None:
+            one_of(heuristic, HEURISTIC_CHOICES, "heuristic")
+        if branch is not None:
+            one_of(branch, BRANCHES, "branch")
         if reason := mismatch(solver, heuristic, search):
             raise UsageError(reason)
         if branch is not None and solver != "plan":
             raise UsageError(f"a branch belongs to the solver 'plan', not to '{solver}'")
         if weight is not None and search != "weighted":
             raise UsageError(f"a weight belongs to the weighted search, not to '{search}'")
-        if weight is not None and not (math.isfinite(weight) and weight >= 1):
+        if weight is not None and not (math.isfinite(number(weight, "the weight")) and weight >= 1):
             raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
         if weight is None:
             weight = DEFAULT_WEIGHT if search == "weighted" else 1.0

@@ -11,6 +11,7 @@ from statehtn.errors import UnsupportedError
 from statehtn.model import Action, CostBlock, CostDistribution, Expression, FunctionTerm, Number, Problem, Signature
 from statehtn.model.cost_law import block_law
 from statehtn.model.costs import exact
+from statehtn.model.expect import expect_problem
 
 Arguments = tuple[str, ...]
 
@@ -27,6 +28,7 @@ def tabulate_costs(problem: Problem) -> Problem:
         UnsupportedError: the problem asks for something that the planner does not do, or an answer is no list of
             outcomes.
     """
+    expect_problem(problem)
     if not any(block.external for action in problem.domain.actions.values() for block in action.costs):
         return problem
     reached = _reached(ground(problem))

@@ -7,21 +7,27 @@ import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, cast
 
 from statehtn.core.heuristics import ADMISSIBLE, why_refused
 from statehtn.core.top_plans import DISTINCT, TopOutcome, TopProgress, find_top_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import UsageError
+from statehtn.expected import function, one_of, whole_number
 from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, validated_and_priced
 from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.planner import measured_ground, measured_read
-from statehtn.risk import Attitude, Utility, problem_class, utility_for
+from statehtn.risk import Attitude, AttitudeName, Utility, problem_class, utility_for
 from statehtn.top_result import RankedPlan, TopPlans
 
 TopProgressCallback = Callable[[TopProgress], None]
 
+# Names for type checkers.
+TopHeuristicName = Literal["blind", "tdg", "hmax", "lmcut", "potential", "potential-hmax"]
+DistinctName = Literal["sequence", "multiset"]
 DEFAULT_TOP_HEURISTIC = "potential"
 MOST_PLANS = 1_000_000_000
 
@@ -48,15 +54,14 @@ class TopQuery:
         Raises:
             UsageError: a name is unknown, or a number out of range.
         """
-        utility = utility_for(attitude, alpha)
-        if not 1 <= k <= MOST_PLANS:
+        utility = utility_for(cast("AttitudeName", attitude), alpha)
+        if not 1 <= whole_number(k, "the number of plans") <= MOST_PLANS:
             raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {k}")
+        one_of(distinct, DISTINCT, "value of 'distinct'")
         heuristic = heuristic or DEFAULT_TOP_HEURISTIC
         if reason := why_refused(heuristic, "the search for the best plans"):
             raise UsageError(reason)
-        for kind, name, known in (("distinct", distinct, DISTINCT), ("heuristic", heuristic, ADMISSIBLE)):
-            if name not in known:
-                raise UsageError(f"no such value of {kind} here: '{name}'; there are {', '.join(known)}")
+        one_of(heuristic, ADMISSIBLE, "heuristic")
         return TopQuery(k, utility, distinct, heuristic)
 
 
@@ -64,10 +69,10 @@ def top_plans(
     problem: Problem,
     k: int,
     *,
-    attitude: Attitude | str = Attitude.NEUTRAL,
+    attitude: Attitude | AttitudeName = Attitude.NEUTRAL,
     alpha: float | None = None,
-    distinct: str = "sequence",
-    heuristic: str | None = None,
+    distinct: DistinctName = "sequence",
+    heuristic: TopHeuristicName | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: TopProgressCallback | None = None,
@@ -96,7 +101,9 @@ def top_plans(
         InputError: the cost of a reachable action is undefined, negative or no distribution.
         UnsupportedError: the problem asks for something that the planner does not do.
     """
+    expect_problem(problem)
     query = TopQuery.of(k, attitude, alpha, distinct, heuristic)
+    function(progress, "progress")
     limits = Limits.starting_now(time_limit, memory_limit)
     return _solve(problem, query, limits, progress, Statistics())
 

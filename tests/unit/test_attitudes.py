@@ -32,7 +32,7 @@ def test_agents_stand_from_averse_to_seeking() -> None:
     assert statehtn.compare_attitudes(problem, attitudes=["seeking"]).agents == ("seeking 1",)
     with pytest.raises(statehtn.UsageError, match="no agents to compare"):
         statehtn.compare_attitudes(problem, [], attitudes=["averse"])
-    with pytest.raises(statehtn.UsageError, match="'bold' is not a valid Attitude; there are neutral"):
+    with pytest.raises(statehtn.UsageError, match="unknown attitude 'bold'; there are neutral"):
         statehtn.compare_attitudes(problem, attitudes=["bold"])
     with pytest.raises(statehtn.UsageError, match="alpha must be a positive finite number"):
         statehtn.compare_attitudes(problem, -1)

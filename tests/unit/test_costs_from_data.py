@@ -264,7 +264,7 @@ def test_plans_know_what_they_cost(vehicle: statehtn.Problem) -> None:
     assert read.with_costs(costs).cost_distribution() == law
     with pytest.raises(statehtn.UsageError, match="needs a cost for each, found 1"):
         read.with_costs(costs[:1])
-    with pytest.raises(statehtn.UsageError, match="runs must be at least 1"):
+    with pytest.raises(statehtn.UsageError, match="runs must be from 1"):
         result.plan.simulate(0, seed=1)
     assert Plan((Step("a"),)) == Plan((Step("a"),), costs=(law,))
 
@@ -294,6 +294,33 @@ def test_laws_can_be_drawn() -> None:
         assert heights[0] == 0
         assert max(heights) == pytest.approx(1, abs=1e-3)
         axes.figure.clear()
+
+
+def test_two_laws_in_one_figure() -> None:
+    mpl = pytest.importorskip("matplotlib")
+    mpl.use("Agg")
+    from matplotlib import pyplot
+
+    bus, train = CostDistribution.of([(0.7, 20), (0.3, 45)]), CostDistribution.of([(0.5, 25), (0.4, 30), (0.1, 60)])
+    figure, (left, right) = pyplot.subplots(1, 2)
+    bus.plot(left)
+    train.plot(right)
+    figure.canvas.draw()
+    for axes in (left, right):
+        inside, legend = axes.get_window_extent(), axes.get_legend().get_window_extent()
+        assert inside.contains(*legend.min)
+        assert inside.contains(*legend.max)
+    pyplot.close(figure)
+
+    axes = bus.plot()
+    assert train.plot(axes, label="the train") is axes
+    curves = [line for line in axes.lines if len(line.get_xdata()) > 2]
+    assert [curve.get_label() for curve in curves] == ["20 w.p. 0.7, 45 w.p. 0.3", "the train"]
+    assert len({curve.get_color() for curve in curves}) == 2
+    assert {tuple(curve.get_xdata()[[0, -1]]) for curve in curves} == {axes.get_xlim()}
+    assert [line.get_color() for line in axes.lines] == [curve.get_color() for curve in curves for _ in range(4)]
+    assert CostDistribution.certain(3).plot(axes, color="black").lines[-1].get_color() == "black"
+    pyplot.close(axes.figure)
 
 
 def test_scipy_and_numpy_are_only_imported_when_they_are_needed() -> None:

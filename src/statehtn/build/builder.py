@@ -23,6 +23,7 @@ from statehtn.model import (
     TaskNetwork,
 )
 from statehtn.model.costs import Amount, exact
+from statehtn.model.expect import expect_problem
 from statehtn.model.formula import Combinable
 
 
@@ -57,7 +58,7 @@ class ProblemBuilder(DomainBuilder):
     @classmethod
     def of(cls, problem: Problem) -> ProblemBuilder:
         """Return a builder that begins with all of a problem, which stays as it is."""
-        builder = cls("problem", problem.domain)
+        builder = cls("problem", expect_problem(problem).domain)
         builder.name = problem.name  # as the reader accepted it
         builder._declared.objects.update(problem.objects)
         builder._network = (problem.parameters, problem.network)
@@ -86,8 +87,7 @@ class ProblemBuilder(DomainBuilder):
 
     def set_network(
         self,
-        subtasks: Occurrence | Iterable[Occurrence],
-        *,
+        *subtasks: Occurrence | Iterable[Occurrence],
         parameters: Iterable[Parameter] = (),
         ordering: Ordering = "total",
         constraints: Combinable = TRUE,
@@ -95,6 +95,7 @@ class ProblemBuilder(DomainBuilder):
         """Set the tasks to accomplish; the arguments are those of `method`.
 
         Args:
+            subtasks: tasks with arguments, one after the other or in lists.
             parameters: variables that may be bound to any objects of their types.
         """
         variables = checked_variables(parameters)

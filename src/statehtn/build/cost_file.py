@@ -11,6 +11,7 @@ from typing import Any
 
 from statehtn.build.cost_table import CostEntry, CostTable
 from statehtn.errors import InputError, StateHtnError, UsageError
+from statehtn.expected import file_name
 from statehtn.keyed_file import KeyedTable, read_tables
 from statehtn.model import CostDistribution, CostLaw
 
@@ -28,7 +29,7 @@ def read_costs(file: str | os.PathLike[str]) -> CostTable:
             key. Names are only checked by `CostTable.apply`.
         UsageError: a `distribution` needs scipy, which is not installed.
     """
-    path = Path(file)
+    path = Path(file_name(file, "the costs"))
     whole = KeyedTable(str(path), read_tables(path))
     whole.check_keys(("costs",))
     tables = whole.values.get("costs")

@@ -9,6 +9,7 @@ from statehtn.hddl.diagnostics import unknown
 from statehtn.hddl.spelling import Spellings
 from statehtn.model import Action, And, CostBlock, CostDistribution, CostLaw, Equals, Formula, Not, Problem
 from statehtn.model.costs import block_of
+from statehtn.model.expect import expect_problem
 from statehtn.model.formula import TRUE
 
 ANY = "*"
@@ -73,7 +74,7 @@ class CostTable:
             InputError: there is no such action or object, arguments do not fit the parameters, or an entry can never
                 count; the message names the entry.
         """
-        domain = problem.domain
+        domain = expect_problem(problem).domain
         by_action: dict[str, list[CostEntry]] = {}
         names = Spellings(domain.actions), Spellings(problem.all_objects)
         for given in self.entries:

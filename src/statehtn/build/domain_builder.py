@@ -14,6 +14,7 @@ from statehtn.build.networks import Occurrence, Ordering, network_of
 from statehtn.build.parts import CostPart, EffectPart, When, costs_of, effects_of
 from statehtn.build.terms import Object, checked_formula, checked_variables
 from statehtn.errors import UsageError
+from statehtn.expected import expect
 from statehtn.hddl.cost_reader import TOTAL_COST
 from statehtn.model import (
     TRUE,
@@ -119,8 +120,7 @@ class DomainBuilder:
         self,
         name: str,
         task: Occurrence,
-        subtasks: Occurrence | Iterable[Occurrence] = (),
-        *,
+        *subtasks: Occurrence | Iterable[Occurrence],
         parameters: Iterable[Parameter] | None = None,
         ordering: Ordering = "total",
         precondition: Combinable = TRUE,
@@ -130,7 +130,7 @@ class DomainBuilder:
 
         Args:
             task: the task with the method's variables as arguments, such as `travel(here, to)`.
-            subtasks: tasks with arguments; none where nothing is left to do.
+            subtasks: tasks with arguments, one after the other or in lists; none where nothing is left to do.
             parameters: all variables of the method; where they are left out, those among the task's arguments.
             ordering: `"total"`, or pairs (before, after) of subtasks or labels; `()` for none.
             precondition: a formula over facts that holds before the first subtask starts.
@@ -169,7 +169,7 @@ class DomainBuilder:
                 it holds. They replace what was due under exactly this condition; other parts stay.
         """
         declared = self._declared
-        given = str(action.name if isinstance(action, Task) else action)
+        given = action.name if isinstance(action, Task) else expect(action, str, "the action must be a name")
         name = declared.actions.spelling(given)
         if name is None:
             raise not_declared("action", given, declared.actions)

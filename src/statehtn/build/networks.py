@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import count, pairwise
+from itertools import chain, count, pairwise
 from typing import Literal
 
 from statehtn.build.declarations import Declarations, Scope
 from statehtn.build.names import Named, new_name, not_declared
 from statehtn.build.terms import Term, checked_formula, name_of
 from statehtn.errors import UsageError
+from statehtn.expected import shown
 from statehtn.hddl.cycles import find_cycle
 from statehtn.model import And, Equals, Formula, Not, OfType, Or, Subtask, TaskNetwork
 from statehtn.model.formula import Combinable
@@ -34,7 +35,7 @@ Ordering = Literal["total"] | Iterable[tuple["Occurrence | str", "Occurrence | s
 
 
 def network_of(
-    subtasks: Occurrence | Iterable[Occurrence],
+    subtasks: Iterable[Occurrence | Iterable[Occurrence]],
     ordering: Ordering,
     constraints: Combinable,
     scope: Scope,
@@ -67,8 +68,9 @@ def network_of(
     return TaskNetwork(tuple(found), _pairs(ordering, occurrences, found), formula)
 
 
-def _occurrences(subtasks: Occurrence | Iterable[Occurrence]) -> tuple[Occurrence, ...]:
-    found = tuple(subtasks) if isinstance(subtasks, Iterable) else (subtasks,)
+def _occurrences(subtasks: Iterable[Occurrence | Iterable[Occurrence]]) -> tuple[Occurrence, ...]:
+    listed = ([given] if isinstance(given, str) or not isinstance(given, Iterable) else given for given in subtasks)
+    found = tuple(chain.from_iterable(listed))
     for occurrence in found:
         if not isinstance(occurrence, Occurrence):
             hint = "; call the task with its arguments" if callable(occurrence) else ""
@@ -97,8 +99,8 @@ def _pairs(
 ) -> tuple[tuple[int, int], ...]:
     if ordering == "total":
         return tuple(pairwise(range(len(subtasks))))
-    if isinstance(ordering, str):
-        raise UsageError(f"an ordering is 'total' or pairs of subtasks, found '{ordering}'")
+    if isinstance(ordering, str) or not isinstance(ordering, Iterable):
+        raise UsageError(f"an ordering is 'total' or pairs of subtasks, found {shown(ordering)}")
     pairs = tuple(dict.fromkeys(_indices(ordering, occurrences, subtasks)))
     after: dict[int, list[int]] = {}
     for i, j in pairs:

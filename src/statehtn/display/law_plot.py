@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from statehtn.errors import UsageError
+import numpy
+
+from statehtn.display.axes import new_or_given
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
-CURVE, MEAN, TAIL = "#2f5d9b", "#5b6b82", "#b4561e"
+CURVE = "distribution function of a cost"  # what marks the curves of this module among the lines of a diagram
+LABEL_WIDTH = 26  # characters, so that a legend fits into small axes
 
 
 def plot_law(
@@ -18,9 +23,11 @@ def plot_law(
     probabilities: Sequence[float],
     mean: float,
     worst: tuple[float, float],
-    ax: Axes | None = None,
+    ax: Axes | None,
+    label: str,
+    color: str | None,
 ) -> Axes:
-    """Draw a distribution function in steps, with its mean and its worst cases.
+    """Draw a distribution function in steps, with its mean and its worst cases, beside those that are there already.
 
     Args:
         costs: ascending.
@@ -28,23 +35,51 @@ def plot_law(
         mean: of the law.
         worst: the cost that is not exceeded in 95% of all cases, and the mean of the other 5%.
         ax: where to draw; a new figure where it is None.
+        label: the law's name in the legend.
+        color: of all its lines; the next one of the colour cycle where it is None.
 
     Raises:
-        UsageError: matplotlib is not installed.
+        UsageError: matplotlib is not installed, or these are no axes.
     """
-    try:
-        from matplotlib import pyplot
-    except ImportError:
-        raise UsageError("drawing needs the package 'matplotlib': pip install 'statehtn[plots]'") from None
-    if ax is None:
-        _, ax = pyplot.subplots(figsize=(6.4, 3.6), layout="constrained")
-    margin = 0.05 * (max(costs[-1], worst[1]) - costs[0]) or 0.05 * (costs[0] or 1.0)
-    left, right = costs[0] - margin, max(costs[-1], worst[1]) + margin
-    ax.step([left, *costs, right], [0.0, *probabilities, probabilities[-1]], where="post", color=CURVE, linewidth=1.6)
-    ax.axvline(mean, color=MEAN, linewidth=1, label=f"mean {mean:.4g}")
-    ax.axvline(worst[0], color=TAIL, linewidth=1, linestyle="--", label=f"95% quantile {worst[0]:.4g}")
-    ax.axvline(worst[1], color=TAIL, linewidth=1, linestyle=":", label=f"mean of the worst 5% {worst[1]:.4g}")
+    ax = new_or_given(ax, figsize=(6.4, 3.6), layout="constrained")
+    others = [line for line in ax.get_lines() if line.get_gid() == CURVE]
+    left, right = _limits(costs, worst[1], ax if others else None)
+    (curve,) = ax.step(
+        [left, *costs, right],
+        [0.0, *probabilities, probabilities[-1]],
+        where="post",
+        linewidth=1.6,
+        label=textwrap.fill(label, LABEL_WIDTH),
+        gid=CURVE,
+        color=color,
+    )
+    for cost, style, name in (
+        (mean, "-", "mean"),
+        (worst[0], "--", "95% quantile"),
+        (worst[1], ":", "mean of worst 5%"),
+    ):
+        ax.axvline(cost, color=curve.get_color(), linewidth=1, linestyle=style, label=f"{name} {cost:.4g}")
+    for other in others:
+        _stretch(other, left, right)
     ax.set(xlabel="cost", ylabel="probability of paying no more", xlim=(left, right), ylim=(0, 1.02))
     ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=3, frameon=False, fontsize="small")
+    ax.legend(loc="lower right", fontsize="small", framealpha=0.85, edgecolor="none")
     return ax
+
+
+def _limits(costs: Sequence[float], worst: float, shared: Axes | None) -> tuple[float, float]:
+    """Return the ends of the axis of costs: of this law, and of those that share the diagram."""
+    most = max(costs[-1], worst)
+    margin = 0.05 * (most - costs[0]) or 0.05 * (costs[0] or 1.0)
+    left, right = costs[0] - margin, most + margin
+    if shared is None:
+        return left, right
+    old_left, old_right = shared.get_xlim()
+    return min(left, old_left), max(right, old_right)
+
+
+def _stretch(curve: Line2D, left: float, right: float) -> None:
+    """Let a curve go on, at 0 and at its largest probability, to the ends of the axis."""
+    costs = numpy.array(curve.get_xdata())
+    costs[0], costs[-1] = left, right
+    curve.set_xdata(costs)

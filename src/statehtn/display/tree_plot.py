@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from statehtn.display.axes import new_or_given
 from statehtn.display.tree import TreeRow
 from statehtn.errors import UsageError
 
@@ -26,19 +27,14 @@ def plot_tree(rows: Sequence[TreeRow], ax: Axes | None = None) -> Axes:
         ax: where to draw; a new figure of a size that fits where it is None.
 
     Raises:
-        UsageError: matplotlib is not installed, or the tree has too many rows to be read in a picture.
+        UsageError: matplotlib is not installed, these are no axes, or the tree has too many rows for a picture.
     """
-    try:
-        from matplotlib import pyplot
-    except ImportError:
-        raise UsageError("drawing needs the package 'matplotlib': pip install 'statehtn[plots]'") from None
     if len(rows) > MOST_ROWS:
         raise UsageError(f"a picture of {len(rows)} nodes cannot be read (at most {MOST_ROWS}); print the tree instead")
     lefts, widths = _columns(rows)
     heights = _heights(rows)
     width, height = lefts[-1] + widths[-1] + 0.2, (max(heights) + 1) * ROW + 0.2
-    if ax is None:
-        _, ax = pyplot.subplots(figsize=(width, height), layout="tight")
+    ax = new_or_given(ax, figsize=(width, height), layout="tight")
     ax.set(xlim=(-0.1, width), ylim=(height - 0.3, -ROW / 2 - 0.1))
     ax.axis("off")
     path: list[int] = []  # the rows from the root to this one

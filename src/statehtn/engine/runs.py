@@ -16,6 +16,7 @@ from statehtn.errors import InternalError, StateHtnError, UsageError
 from statehtn.interop.conversion import Conversion
 from statehtn.model.status import Status
 from statehtn.planner import improving, plan
+from statehtn.query import SearchName
 from statehtn.result import Result
 
 SHORTEST_SECONDS = 1e-3  # what is left to the search where converting the problem took all the time
@@ -79,7 +80,7 @@ class _Run:
 
     def one_plan(self) -> Iterator[PlanGenerationResult]:
         """Yield an optimal plan, or any plan where nothing is to be optimised."""
-        search = "astar" if self.optimises or self.options["heuristic"] else "greedy"
+        search: SearchName = "astar" if self.optimises or self.options["heuristic"] else "greedy"
         yield self.final(plan(self.conversion.problem, search=search, **self.options))
 
     def every_plan(self) -> Iterator[PlanGenerationResult]:

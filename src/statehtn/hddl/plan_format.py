@@ -16,8 +16,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from statehtn.errors import InputError, Place
+from statehtn.expected import expect
 from statehtn.hddl.plan_matching import Child, ChildrenMatcher, topological_order
 from statehtn.hddl.spelling import Spellings
+from statehtn.model.expect import expect_plan, expect_problem
 from statehtn.model.plan import Decomposition, Plan, Step
 from statehtn.model.problem import Problem
 
@@ -31,6 +33,8 @@ def write_plan(plan: Plan, problem: Problem) -> str:
         plan: the plan; each of its steps belongs to one place in the decomposition.
         problem: the problem that it solves.
     """
+    expect_plan(plan)
+    expect_problem(problem)
     texts: dict[Step, str] = {}  # a long plan repeats few ground actions
     for step in plan.steps:
         if step not in texts:
@@ -70,6 +74,8 @@ def read_plan(text: str, problem: Problem, file: str = "<plan>") -> Plan:
     Raises:
         InputError: the text holds no plan, a line is malformed, or the numbers do not make a tree.
     """
+    expect(text, str, "the plan must be a text in the IPC 2020 format", "write_plan(plan, problem) makes one")
+    expect_problem(problem)
     lines = _read_lines(text, _Names(problem), file)
     lines.unwrap_top()
     order = lines.children_first()

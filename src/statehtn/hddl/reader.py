@@ -6,9 +6,10 @@ import gc
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
-from os import PathLike, fspath
+from os import PathLike
 
-from statehtn.errors import StateHtnError
+from statehtn.errors import StateHtnError, UsageError
+from statehtn.expected import expect, file_name
 from statehtn.hddl.diagnostics import Diagnostics
 from statehtn.hddl.domain_reader import read_domain
 from statehtn.hddl.problem_reader import problem_objects, read_problem
@@ -43,13 +44,13 @@ def read_hddl(
         UnsupportedError: a file uses something that this planner does not do.
         LimitReached: a limit was reached.
     """
+    domain_file, problem_file = (
+        _file(path, what) for path, what in ((domain_path, "domain"), (problem_path, "problem"))
+    )
     diagnostics = Diagnostics(strict)
     try:
         return _read(
-            (fspath(domain_path), read_text(domain_path)),
-            (fspath(problem_path), read_text(problem_path)),
-            diagnostics,
-            limits,
+            (domain_file, read_text(domain_file)), (problem_file, read_text(problem_file)), diagnostics, limits
         )
     finally:
         diagnostics.emit(2)
@@ -74,11 +75,25 @@ def read_hddl_text(
         domain_file: the name of the domain in messages.
         problem_file: the name of the problem in messages.
     """
+    for text, what in ((domain_text, "domain"), (problem_text, "problem")):
+        expect(text, str, f"the {what} must be a text in HDDL", "statehtn.read_hddl reads files")
     diagnostics = Diagnostics(strict)
     try:
-        return _read((domain_file, domain_text), (problem_file, problem_text), diagnostics, limits)
+        return _read((str(domain_file), domain_text), (str(problem_file), problem_text), diagnostics, limits)
     finally:
         diagnostics.emit(2)
+
+
+def _file(path: str | PathLike[str], what: str) -> str:
+    """Return the name of a file.
+
+    Raises:
+        UsageError: it is none; the text of one, say.
+    """
+    name = file_name(path, f"the {what}")
+    if "(define" in name:
+        raise UsageError(f"the {what} must be the name of a file, found a text; statehtn.read_hddl_text reads texts")
+    return name
 
 
 def _read(domain: tuple[str, str], problem: tuple[str, str], diagnostics: Diagnostics, limits: Limits) -> Problem:

@@ -33,6 +33,7 @@ from statehtn.model import (
     TaskNetwork,
     TypeHierarchy,
 )
+from statehtn.model.expect import expect_problem
 
 REQUIREMENTS = (
     "hierarchy",
@@ -57,7 +58,7 @@ def write_hddl(problem: Problem) -> tuple[str, str]:
     Raises:
         UnsupportedError: a cost is a Python callable, which has no HDDL form.
     """
-    return "\n".join(_domain(problem.domain)) + "\n", "\n".join(_problem(problem)) + "\n"
+    return "\n".join(_domain(expect_problem(problem).domain)) + "\n", "\n".join(_problem(problem)) + "\n"
 
 
 def _domain(domain: Domain) -> Iterator[str]:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import UsageError
 from statehtn.model import Problem
-from statehtn.risk import Attitude
+from statehtn.model.expect import expect_problem
+from statehtn.risk import Attitude, AttitudeName
 
 if TYPE_CHECKING:
     from unified_planning.environment import Environment
@@ -69,7 +70,7 @@ def to_unified_planning(problem: Problem) -> HierarchicalProblem:
             callables, types with several supertypes, variables of several types, methods for a task with an object.
         UsageError: unified-planning is missing.
     """
-    return _conversion().to_up(problem).up_problem
+    return _conversion().to_up(expect_problem(problem)).up_problem
 
 
 def cost_distributions(problem: Problem) -> dict[str, tuple[CostPart, ...]]:
@@ -80,10 +81,12 @@ def cost_distributions(problem: Problem) -> dict[str, tuple[CostPart, ...]]:
     """
     from statehtn.interop import costs
 
-    return costs.cost_distributions(problem)
+    return costs.cost_distributions(expect_problem(problem))
 
 
-def relax(problem: Problem, *, attitude: Attitude | str = Attitude.NEUTRAL, alpha: float | None = None) -> UpProblem:
+def relax(
+    problem: Problem, *, attitude: Attitude | AttitudeName = Attitude.NEUTRAL, alpha: float | None = None
+) -> UpProblem:
     """Return the relaxed composition model of a problem as a classical problem of unified-planning with action costs.
 
     Its facts are those of the state, `not ...` for those that must be false somewhere, and `reached ...` for tasks. An
@@ -103,11 +106,11 @@ def relax(problem: Problem, *, attitude: Attitude | str = Attitude.NEUTRAL, alph
     _require()
     from statehtn.interop.relaxation import relaxed_problem
 
-    return relaxed_problem(problem, attitude, alpha)
+    return relaxed_problem(expect_problem(problem), attitude, alpha)
 
 
 def relax_to_pddl(
-    problem: Problem, *, attitude: Attitude | str = Attitude.NEUTRAL, alpha: float | None = None
+    problem: Problem, *, attitude: Attitude | AttitudeName = Attitude.NEUTRAL, alpha: float | None = None
 ) -> tuple[str, str]:
     """Return the relaxed model, as `relax` does, as PDDL text: domain and problem.
 
@@ -155,7 +158,9 @@ def _require() -> None:
         raise UsageError("this needs the package 'unified-planning': pip install 'statehtn[up]'") from None
 
 
-def __getattr__(name: str) -> Any:
-    if name == "Conversion":
-        return _conversion()
-    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+if not TYPE_CHECKING:  # a type checker would take every name, also a misspelt one
+
+    def __getattr__(name: str) -> Any:
+        if name == "Conversion":
+            return _conversion()
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

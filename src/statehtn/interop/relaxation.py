@@ -19,13 +19,13 @@ from unified_planning.model.metrics import MinimizeActionCosts
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.model import GroundAction, GroundMethod, GroundProblem, Problem
 from statehtn.model.costs import exact
-from statehtn.risk import Attitude, Utility, utility_for
+from statehtn.risk import Attitude, AttitudeName, Utility, utility_for
 
 DIGITS = 10
 """Costs are rounded to so many significant digits, which is what UP's writer of PDDL holds."""
 
 
-def relaxed_problem(problem: Problem, attitude: Attitude | str, alpha: float | None) -> UpProblem:
+def relaxed_problem(problem: Problem, attitude: Attitude | AttitudeName, alpha: float | None) -> UpProblem:
     """Return the relaxed model of the initial node; described at `statehtn.relax`."""
     utility = utility_for(attitude, alpha)
     return _Builder(ground(problem, switches=PLAIN).to_model(), utility, f"{problem.name}-relaxed").build()

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 
-from statehtn.errors import InputError
+from statehtn.errors import InputError, UsageError
+from statehtn.expected import expect, number, shown, whole_number
 from statehtn.model.exponential_mean import exponential_mean_of
 from statehtn.model.law import PLOT_POINTS, CostLaw, checked_probability
 
@@ -39,7 +40,7 @@ class CostDistribution(CostLaw):
     @staticmethod
     def certain(cost: float) -> CostDistribution:
         """Return the distribution of a cost that is known."""
-        return CostDistribution.of([(1.0, cost)])
+        return CostDistribution.of([(1.0, number(cost, "a cost"))])
 
     @staticmethod
     def of(outcomes: Iterable[tuple[float, float]]) -> CostDistribution:
@@ -48,8 +49,12 @@ class CostDistribution(CostLaw):
         Raises:
             InputError: a probability is negative or not finite, a cost is negative or not finite,
                 or the probabilities do not sum to 1.
+            UsageError: these are no pairs of numbers.
         """
-        return CostDistribution(checked_outcomes(outcomes))
+        try:
+            return CostDistribution(checked_outcomes(outcomes))
+        except (TypeError, ValueError, OverflowError):
+            raise UsageError(_no_outcomes(outcomes)) from None
 
     @staticmethod
     def from_samples(data: Iterable[float], *, most: float | None = None) -> SampledCost:
@@ -128,10 +133,12 @@ class CostDistribution(CostLaw):
 
     def cdf(self, cost: float) -> float:
         """Return the probability of paying at most `cost`."""
+        number(cost, "a cost")
         return min(1.0, math.fsum(probability for probability, outcome in self.outcomes if outcome <= cost))
 
     def exceedance(self, budget: float) -> float:
         """Return the probability of paying more than `budget`."""
+        number(budget, "a budget")
         return min(1.0, math.fsum(probability for probability, outcome in self.outcomes if outcome > budget))
 
     def quantile(self, probability: float) -> float:
@@ -169,6 +176,7 @@ class CostDistribution(CostLaw):
 
     def exponential_mean(self, slope: float) -> float:
         """Return `ln E[e^(slope C)] / slope`, between the least and the largest outcome."""
+        number(slope, "the slope")
         probabilities = [probability for probability, _ in self.outcomes]
         mean = min(max(self.mean, self.least), self.most)
         return exponential_mean_of(probabilities, [cost for _, cost in self.outcomes], mean, slope)
@@ -186,12 +194,13 @@ class CostDistribution(CostLaw):
 
     def convolve(self, other: CostDistribution) -> CostDistribution:
         """Return the distribution of the sum of two independent costs."""
+        expect(other, CostDistribution, "expected a CostDistribution")
         return CostDistribution.of((p * q, c + d) for p, c in self.outcomes for q, d in other.outcomes)
 
     def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
         """Return ascending costs, and the probability of each or less, for a drawing in at most so many steps."""
         costs, heights = [cost for _, cost in self.outcomes], list(accumulate(p for p, _ in self.outcomes))
-        step = math.ceil(len(costs) / points)
+        step = max(1, math.ceil(len(costs) / max(1, whole_number(points, "the number of points"))))
         last = len(costs) - 1
         shown = sorted({*range(0, last, step), last})
         return [costs[0], *(costs[index] for index in shown)], [0.0, *(heights[index] for index in shown)]
@@ -202,6 +211,17 @@ class CostDistribution(CostLaw):
         if len(self.outcomes) > MOST_SHOWN:
             return f"{len(self.outcomes)} outcomes from {self.least:g} to {self.most:g}"
         return ", ".join(f"{cost:g} w.p. {probability:g}" for probability, cost in self.outcomes)
+
+
+def _no_outcomes(given: object) -> str:
+    """Return what is wrong with outcomes that are no pairs of numbers."""
+    write = "write pairs (probability, cost), such as CostDistribution.of([(0.8, 2), (0.2, 6)])"
+    if isinstance(given, Mapping):
+        pairs = ", ".join(f"({probability!r}, {cost!r})" for cost, probability in list(given.items())[:3])
+        write = f"write pairs (probability, cost); if its keys are the costs: CostDistribution.of([{pairs}])"
+    elif isinstance(given, Iterable) and not isinstance(given, str):
+        write += "; costs that were observed: CostDistribution.from_samples(...)"
+    return f"expected the outcomes of a cost, found {shown(given)}; {write}"
 
 
 def checked_outcomes(outcomes: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
 from statehtn.errors import UsageError
+from statehtn.expected import number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -94,18 +95,23 @@ class CostLaw(ABC):
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, *, label: str | None = None, color: str | None = None) -> Axes:
         """Draw the probability of keeping each budget, by matplotlib (`pip install 'statehtn[plots]'`).
+
+        Several laws can be drawn on the same axes.
 
         Args:
             ax: where to draw; a new figure where it is None.
+            label: the law's name in the legend; the law in words where it is None.
+            color: of all its lines; the next one of the colour cycle where it is None.
 
         Raises:
-            UsageError: matplotlib is not installed.
+            UsageError: matplotlib is not installed, or these are no axes.
         """
         from statehtn.display.law_plot import plot_law
 
-        return plot_law(*self.curve(), mean=self.mean, worst=(self.quantile(0.95), self.cvar(0.95)), ax=ax)
+        worst = self.quantile(0.95), self.cvar(0.95)
+        return plot_law(*self.curve(), self.mean, worst, ax, str(self) if label is None else str(label), color)
 
     def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
         """Return ascending costs, and the probability of each or less, for a drawing in about so many steps.
@@ -123,7 +129,7 @@ def checked_probability(value: float, what: str) -> float:
     Raises:
         UsageError: it is not between 0 and 1.
     """
-    if not 0 <= value <= 1:
+    if not 0 <= number(value, what) <= 1:
         raise UsageError(f"{what} must be between 0 and 1, found {value:g}")
     return value
 

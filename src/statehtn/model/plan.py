@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from statehtn.errors import UsageError
+from statehtn.expected import expect, items, whole_number
 from statehtn.model.law import CostLaw
 
 if TYPE_CHECKING:
@@ -14,6 +15,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from statehtn.model.decomposition_tree import DecompositionTree
+
+
+MOST_RUNS = 1_000_000_000
+"""Of a plan that can be simulated at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +91,10 @@ class Plan:
         Raises:
             UsageError: there is not one for each step.
         """
-        if len(costs) != len(self.steps):
-            raise UsageError(f"a plan of {len(self.steps)} steps needs a cost for each, found {len(costs)}")
-        return replace(self, costs=tuple(costs))
+        laws = tuple(expect(law, CostLaw, "expected the law of each step's cost") for law in items(costs, "the costs"))
+        if len(laws) != len(self.steps):
+            raise UsageError(f"a plan of {len(self.steps)} steps needs a cost for each, found {len(laws)}")
+        return replace(self, costs=laws)
 
     def cost_distribution(self) -> CostLaw:
         """Return the law of the plan's total cost: positive, in the domain's unit; the actions' are independent.
@@ -104,8 +110,10 @@ class Plan:
 
         return total_cost(self._known_costs())
 
-    def simulate(self, runs: int, seed: int) -> NDArray[float64]:
+    def simulate(self, runs: int, seed: int = 0) -> NDArray[float64]:
         """Return the total costs of so many independent runs of the plan, drawn by numpy's default generator.
+
+        The same seed draws the same costs.
 
         Raises:
             UsageError: the plan does not know what its steps cost, or there is not at least one run.
@@ -114,8 +122,10 @@ class Plan:
 
         from statehtn.model.cost_sum import sampled_sum
 
-        if runs < 1:
-            raise UsageError(f"the number of runs must be at least 1, found {runs}")
+        if not 1 <= whole_number(runs, "the number of runs") <= MOST_RUNS:
+            raise UsageError(f"the number of runs must be from 1 to {MOST_RUNS}, found {runs}")
+        if whole_number(seed, "the seed") < 0:
+            raise UsageError(f"the seed must be at least 0, found {seed}")
         return sampled_sum(self._known_costs(), runs, numpy.random.default_rng(seed))
 
     def _known_costs(self) -> tuple[CostLaw, ...]:

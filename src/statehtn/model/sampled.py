@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from statehtn.errors import InputError, UsageError
+from statehtn.expected import items, number, shown
 from statehtn.model.cost_distribution import CostDistribution
 from statehtn.model.law import CostLaw
 
@@ -47,7 +48,7 @@ class SampledCost(CostDistribution):
         Raises:
             UsageError: the confidence is not above 0 and below 1.
         """
-        if not 0 < confidence < 1:
+        if not 0 < number(confidence, "the confidence") < 1:
             raise UsageError(f"the confidence must be above 0 and below 1, found {confidence:g}")
         epsilon = min(1.0, math.sqrt(math.log(2 / (1 - confidence)) / (2 * self.count)))
         least, most = self.limits
@@ -64,6 +65,8 @@ class SampledCost(CostDistribution):
             utility: the agent's, such as `statehtn.utility_for("averse", 0.5)`.
             confidence: above 0 and below 1.
         """
+        if not callable(getattr(utility, "risk_cost", None)):
+            raise UsageError(f"expected an agent's utility, such as utility_for('averse', 0.5), found {shown(utility)}")
         best, worst = self.band(confidence)
         return utility.risk_cost(best), math.inf if worst is None else utility.risk_cost(worst)
 
@@ -84,7 +87,7 @@ def _moved(outcomes: Iterable[tuple[float, float]], epsilon: float, target: floa
 
 def sampled_cost(data: Iterable[float], most: float | None) -> SampledCost:
     """Return the empirical distribution of observations; see `CostDistribution.from_samples`."""
-    values = [_number(value, "an observed cost") for value in data]
+    values = [_number(value, "an observed cost") for value in items(data, "the observed costs")]
     if not values:
         raise InputError("a distribution from samples needs at least one observation, found none")
     limit = math.inf if most is None else _number(most, "the largest possible cost")

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError, UnsupportedError, UsageError
+from statehtn.expected import number
 from statehtn.model.cost_distribution import CostDistribution
 from statehtn.model.law import CostLaw, checked_probability, is_of_scipy
 
@@ -65,11 +66,11 @@ class ScipyCost(CostLaw):
 
     def cdf(self, cost: float) -> float:
         """Return the probability of paying at most `cost`."""
-        return float(self.frozen.cdf(cost))
+        return float(self.frozen.cdf(number(cost, "a cost")))
 
     def exceedance(self, budget: float) -> float:
         """Return the probability of paying more than `budget`."""
-        return float(self.frozen.sf(budget))
+        return float(self.frozen.sf(number(budget, "a budget")))
 
     def quantile(self, probability: float) -> float:
         """Return the least cost that is not exceeded with at least this probability.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from statehtn.errors import UsageError
+from statehtn.expected import number, one_of
 from statehtn.risk.expected_utility import (
     expected_utility,
     expected_utility_by_trajectories,
@@ -15,11 +16,12 @@ from statehtn.risk.expected_utility import (
 from statehtn.risk.exponential import Exponential
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.problem_class import RiskProblemClass, problem_class
-from statehtn.risk.utility import Attitude, FunctionType, PlanUtility, Utility
+from statehtn.risk.utility import Attitude, AttitudeName, FunctionType, PlanUtility, Utility
 
 __all__ = [
     "UTILITIES",
     "Attitude",
+    "AttitudeName",
     "Exponential",
     "FunctionType",
     "Neutral",
@@ -61,7 +63,7 @@ UTILITIES: Mapping[Attitude, Callable[[float | None], Utility]] = {
 """For every attitude the function that makes its utility from alpha (None: not given)."""
 
 
-def utility_for(attitude: Attitude | str, alpha: float | None = None) -> Utility:
+def utility_for(attitude: Attitude | AttitudeName, alpha: float | None = None) -> Utility:
     """Return the utility of an attitude.
 
     Args:
@@ -72,8 +74,5 @@ def utility_for(attitude: Attitude | str, alpha: float | None = None) -> Utility
         UsageError: there is no such attitude; alpha is missing for averse or seeking, given for neutral, or not a
             positive finite number.
     """
-    try:
-        make = UTILITIES[Attitude(attitude)]
-    except ValueError:
-        raise UsageError(f"unknown attitude '{attitude}'; there are {', '.join(UTILITIES)}") from None
-    return make(None if alpha is None else float(alpha))
+    make = UTILITIES[Attitude(one_of(attitude, UTILITIES, "attitude"))]
+    return make(None if alpha is None else number(alpha, "alpha"))

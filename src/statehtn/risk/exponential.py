@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 
 from statehtn.errors import UsageError
+from statehtn.expected import number, whole_number
+from statehtn.model.expect import expect_law
 from statehtn.model.law import CostLaw
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
 
@@ -37,7 +39,7 @@ class Exponential:
     def __post_init__(self) -> None:
         if self.attitude not in (Attitude.AVERSE, Attitude.SEEKING):
             raise UsageError(f"an exponential utility is averse or seeking, found '{self.attitude}'")
-        if not (math.isfinite(self.alpha) and self.alpha > 0):
+        if not (math.isfinite(number(self.alpha, "alpha")) and self.alpha > 0):
             raise UsageError(f"alpha must be a positive finite number, found {self.alpha:g}")
 
     @property
@@ -64,10 +66,11 @@ class Exponential:
         Raises:
             InputError: it is infinite, or cannot be computed; never for a list of outcomes.
         """
-        return law.exponential_mean(self.alpha if self.attitude == Attitude.AVERSE else -self.alpha)
+        return expect_law(law).exponential_mean(self.alpha if self.attitude == Attitude.AVERSE else -self.alpha)
 
     def utility(self, cost: float) -> float:
         """Return the utility of a certain cost: averse `-e^(alpha C) / alpha`, seeking `e^(-alpha C) / alpha`."""
+        cost = number(cost, "a cost")
         if self.attitude == Attitude.SEEKING:
             return math.exp(-self.alpha * cost) / self.alpha
         try:
@@ -80,7 +83,7 @@ class Exponential:
 
         The size of EU is `e^(alpha K) / alpha` or `e^(-alpha K) / alpha`, where `K` is the plan's risk cost.
         """
-        log10_slope = self.alpha * risk_cost / math.log(10)
+        log10_slope = self.alpha * number(risk_cost, "a risk cost") / math.log(10)
         log10_alpha = math.log10(self.alpha)
         return log10_alpha - log10_slope if self.attitude == Attitude.AVERSE else -log10_alpha - log10_slope
 
@@ -90,6 +93,9 @@ class Exponential:
         Fewer than `digits` digits are printed where a rounding error in `risk_cost` already shows in them: EU is
         exponential in it.
         """
+        digits = whole_number(digits, "the number of digits")
+        if not math.isfinite(number(risk_cost, "a risk cost")):
+            raise UsageError(f"a risk cost must be finite, found {risk_cost:g}")
         exponent = Decimal(self.alpha) * Decimal(risk_cost)
         carried = DOUBLE_DIGITS - max(0, exponent.adjusted() + 1) if exponent else DOUBLE_DIGITS
         averse = self.attitude == Attitude.AVERSE

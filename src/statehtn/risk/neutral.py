@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from statehtn.expected import number, whole_number
+from statehtn.model.expect import expect_law
 from statehtn.model.law import CostLaw
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
+
+DOUBLE_DIGITS = 17
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,16 +46,18 @@ class Neutral:
 
     def risk_cost(self, law: CostLaw) -> float:
         """Return the expected cost."""
+        expect_law(law)
         # Rounding, or probabilities that sum to 1 + 1e-10, must not leave the range.
         return min(max(law.mean, law.least), law.most)
 
     def utility(self, cost: float) -> float:
         """Return minus the cost: the utility is linear."""
-        return -cost
+        return -number(cost, "a cost")
 
     def log10_expected_utility(self, risk_cost: float) -> None:
         """Return None: the paper prints no logarithm for the neutral attitude."""
 
     def expected_utility_text(self, risk_cost: float, digits: int = DIGITS) -> str:
         """Return minus the expected cost as a decimal number."""
-        return format(0.0 - risk_cost, f".{digits}g")
+        shown = min(max(1, whole_number(digits, "the number of digits")), DOUBLE_DIGITS)
+        return format(0.0 - number(risk_cost, "a risk cost"), f".{shown}g")

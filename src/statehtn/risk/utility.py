@@ -7,7 +7,7 @@ numbers.
 from __future__ import annotations
 
 from enum import IntEnum, StrEnum
-from typing import Protocol
+from typing import Literal, Protocol
 
 from statehtn.model.law import CostLaw
 
@@ -21,6 +21,10 @@ class Attitude(StrEnum):
     NEUTRAL = "neutral"
     AVERSE = "averse"
     SEEKING = "seeking"
+
+
+AttitudeName = Literal["neutral", "averse", "seeking"]
+"""The names of the attitudes, for type checkers."""
 
 
 class FunctionType(IntEnum):

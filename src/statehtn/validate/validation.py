@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from statehtn.limits import Limits
+from statehtn.model.expect import expect_plan, expect_problem, expect_utility
 from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
@@ -44,6 +45,7 @@ class Validation:
 
     def risk_cost(self, utility: Utility) -> float:
         """Return the certainty-equivalent cost of the steps in `costs` to an agent: positive, in the domain's unit."""
+        expect_utility(utility)
         return plan_risk_cost(self.costs, utility)
 
 
@@ -66,7 +68,8 @@ def validate(problem: Problem, plan: Plan, limits: Limits = Limits()) -> Validat
         InputError: the cost of a step is not defined (a value is missing in `:init`, say).
         LimitReached: a limit was reached before the plan was checked.
     """
-    world = World(problem, limits)
+    world = World(expect_problem(problem), limits)
+    expect_plan(plan)
     execution = execute(plan, world)
     tree = PlanTree(plan, world)
     matching = match_networks(tree, world)
