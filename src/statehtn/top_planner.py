@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, cast
 
-from statehtn.core.heuristics import ADMISSIBLE, why_refused
+from statehtn.core.heuristics import HEURISTICS, why_refused
 from statehtn.core.top_plans import DISTINCT, TopOutcome, TopProgress, find_top_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import UsageError
@@ -58,10 +58,9 @@ class TopQuery:
         if not 1 <= whole_number(k, "the number of plans") <= MOST_PLANS:
             raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {k}")
         one_of(distinct, DISTINCT, "value of 'distinct'")
-        heuristic = heuristic or DEFAULT_TOP_HEURISTIC
+        heuristic = DEFAULT_TOP_HEURISTIC if heuristic is None else one_of(heuristic, HEURISTICS, "heuristic")
         if reason := why_refused(heuristic, "the search for the best plans"):
             raise UsageError(reason)
-        one_of(heuristic, ADMISSIBLE, "heuristic")
         return TopQuery(k, utility, distinct, heuristic)
 
 
