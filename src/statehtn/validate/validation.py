@@ -64,6 +64,11 @@ def validate(problem: Problem, plan: Plan, limits: Limits = Limits()) -> Validat
 
     The time is linear in the length of the plan where all networks are ordered totally.
 
+    Args:
+        problem: a problem, such as `read_hddl` returns.
+        plan: a plan for it, such as `statehtn.plan(problem).plan`, or `read_plan` returns.
+        limits: time and memory for it.
+
     Raises:
         InputError: the cost of a step is not defined (a value is missing in `:init`, say).
         LimitReached: a limit was reached before the plan was checked.
