@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections import UserDict
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 from statehtn.errors import UsageError
 from statehtn.hddl.diagnostics import unknown
-from statehtn.hddl.spelling import Spellings
+from statehtn.hddl.spelling import Spellings, is_name
 from statehtn.hddl.vocabulary import RESERVED
 
-_NAME = re.compile(r"[^\s();?:-][^\s();]*")
 WORDS = RESERVED | {"=", "<", ">", "<=", ">=", "+", "-", "*", "/", "either", "when", "increase", "probabilistic"}
 """Words with a meaning of their own wherever a predicate, a function or a task could stand."""
 
@@ -50,10 +48,10 @@ def new_name(name: object, kind: str, *taken: tuple[str, Named[Any]]) -> str:
     article = _article(kind)
     if not isinstance(name, str):
         raise UsageError(f"the name of {article} {kind} must be a string, found {name!r}")
-    if not _NAME.fullmatch(name) or name.lower() in WORDS:
+    if not is_name(name) or name.lower() in WORDS:
         raise UsageError(
-            f"'{name}' cannot name {article} {kind}: a name has no spaces, parentheses or semicolons, does not begin "
-            f"with '?', ':' or '-', and is no word of HDDL such as 'and'"
+            f"'{name}' cannot name {article} {kind}: a name has no spaces, parentheses, brackets, quotes and none of "
+            f"; , ? \\, does not begin with ':' or '-' nor end with '-', and is no word of HDDL such as 'and'"
         )
     for what, things in taken:
         other = things.spelling(name)

@@ -55,6 +55,12 @@ class Reporter:
         self.source = source
         self.diagnostics = diagnostics
 
+    def warn_of_missing_spaces(self) -> None:
+        """Note a warning for every variable that stands right behind another word; an error in strict mode."""
+        for index in self.source.glued:
+            variable = shortened(self.source.tokens[index])
+            self.diagnostics.warn(f"expected a space before '{variable}'", self.source, index)
+
     def error(self, message: str, at: Node) -> InputError:
         """Return an error for the caller to raise."""
         return self.source.error(message, at.index)

@@ -88,6 +88,7 @@ def read_header(source: Source, kind: str, reporter: Reporter) -> str:
     Raises:
         InputError: the file does not start that way; perhaps the two files are swapped.
     """
+    reporter.warn_of_missing_spaces()
     if not source.sections:
         raise source.error(f"expected '(define ({kind} <name>) ...'", 0)
     start = source.sections[0][0]

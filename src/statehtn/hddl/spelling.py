@@ -1,8 +1,20 @@
-"""Names without regard to case: whatever case a name is used in, its declaration says how it is written."""
+"""How names are written: their characters, and their case, which a declaration fixes and which does not matter."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+
+UNSEEN = "\0-\x08\x0e-\x1b\x7f-\x84\x86-\x9f\xad\u200b-\u200f\u202a-\u202e\u2060-\u206f\ufeff\ud800-\udfff"
+"""Characters that are not seen, and are no spaces, as a class of regular expressions."""
+ODD = re.compile(r"[\"'`{}\[\]\\]")
+"""Characters that the reader takes as a part of names, with a warning, and no other program does."""
+NOT_IN_NAMES = re.compile(rf"[\s();,?{ODD.pattern[1:-1]}{UNSEEN}]+")
+
+
+def is_name(text: str) -> bool:
+    """Tell whether a text can name anything in HDDL, but for words of the language."""
+    return bool(text) and NOT_IN_NAMES.search(text) is None and text[0] not in ":-" and text[-1] != "-"
 
 
 class Spellings:

@@ -14,6 +14,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from statehtn.errors import InputError, Place
+from statehtn.hddl.spelling import UNSEEN
 from statehtn.limits import Limits
 
 MAX_NESTING = 200
@@ -28,10 +29,12 @@ MAX_MESSAGE = 1000
 
 CHUNK = 1 << 16
 _COMMENT = re.compile(r";[^\n]*")
-_TOKEN = re.compile(r"[()]|[^\s()]+")
+_TOKEN = re.compile(r"[()]|[^\s()][^\s()?]*(?:\?+(?=[\s()]|\Z))?")  # a ? begins a variable, unless it ends a word
 _BREAK = re.compile(r"[\s()]")
 _LONG_WORD = re.compile(r"[^\s']{64,}")
-_TOKEN_OR_COMMENT = re.compile(r"([()]|[^\s();]+)|;[^\n]*")
+_TOKEN_OR_COMMENT = re.compile(r"([()]|[^\s();][^\s();?]*(?:\?+(?=[\s();]|\Z))?)|;[^\n]*")
+_GLUED = re.compile(r"\?(?<=[^\s()]\?)(?=[^\s()])")
+_FOREIGN = re.compile(f"[,{UNSEEN}]")
 
 
 class Source:
@@ -45,12 +48,14 @@ class Source:
     Attributes:
         tokens: parentheses and words, comments left out.
         sections: for every group directly inside `(define ...)` the index of its `(` and the index after its `)`.
+        glued: the variables before which a space is missing, as in `at?x`.
 
     Raises:
-        InputError: the text is empty, is not one balanced `(define ...)`, or is nested too deeply.
+        InputError: the text is empty, is not one balanced `(define ...)`, is nested too deeply, or has commas or
+            characters that are not seen outside of comments.
     """
 
-    __slots__ = ("_finder", "_offsets", "file", "limits", "sections", "text", "tokens")
+    __slots__ = ("_finder", "_offsets", "file", "glued", "limits", "sections", "text", "tokens")
 
     def __init__(self, text: str, file: str, limits: Limits) -> None:
         self.file = file
@@ -58,6 +63,7 @@ class Source:
         self.text = text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
         self.tokens: list[str] = []
         self.sections: list[tuple[int, int]] = []
+        self.glued: list[int] = []
         self._offsets = array("Q")
         self._finder = (match.start() for match in _TOKEN_OR_COMMENT.finditer(self.text) if match.lastindex)
         self._tokenise()
@@ -67,7 +73,9 @@ class Source:
         missing = index + 1 - len(self._offsets)
         if missing > 0:
             self._offsets.extend(islice(self._finder, missing))
-        offset = self._offsets[index] if index < len(self._offsets) else len(self.text)
+        return self._place_at(self._offsets[index] if index < len(self._offsets) else len(self.text))
+
+    def _place_at(self, offset: int) -> Place:
         line_start = self.text.rfind("\n", 0, offset) + 1
         return Place(self.file, self.text.count("\n", 0, offset) + 1, offset - line_start + 1)
 
@@ -114,6 +122,10 @@ class Source:
     def _chunks(self) -> Iterator[list[str]]:
         """Yield the tokens piece by piece, equal words as the same object."""
         text = _COMMENT.sub("", self.text) if ";" in self.text else self.text
+        if _FOREIGN.search(text):
+            raise self._foreign()
+        if "?" in text and _GLUED.search(text):
+            self.glued = self._glued()
         words: dict[str, str] = {}
         start = 0
         while start < len(text):
@@ -122,6 +134,19 @@ class Source:
             chunk = _TOKEN.findall(text, start, end)
             yield list(map(words.setdefault, chunk, chunk))
             start = end
+
+    def _foreign(self) -> InputError:
+        """Return the error about the first character that has no business in the text."""
+        words = (match for match in _TOKEN_OR_COMMENT.finditer(self.text) if match.lastindex)
+        word, found = next((word, found) for word in words if (found := _FOREIGN.search(word[0])))
+        place = self._place_at(word.start() + found.start())
+        if found[0] == ",":
+            return InputError("a comma has no meaning in HDDL; expected spaces between names", place)
+        return InputError(f"the character U+{ord(found[0]):04X} cannot be seen and has no meaning in HDDL", place)
+
+    def _glued(self) -> list[int]:
+        starts = (match.start() for match in _TOKEN_OR_COMMENT.finditer(self.text) if match.lastindex)
+        return [index for index, start in enumerate(starts) if _GLUED.match(self.text, start)]
 
     def _check_section(self, start: int, end: int) -> None:
         """Refuse an empty section at once: a large file of parentheses ends here and not in memory."""

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from statehtn.hddl.cycles import find_cycle
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
+from statehtn.hddl.spelling import ODD
 from statehtn.hddl.vocabulary import Types, Vocabulary, new_name
 from statehtn.model import Parameter
 from statehtn.model.types import ROOT_TYPE
@@ -16,7 +17,8 @@ MAX_TYPES = 20
 """Types of one object; the name of the type that joins them grows with their number."""
 
 
-_PLAIN_NAME = re.compile(r"(?!either$)[^-?:()]", re.IGNORECASE).match
+_ODD = ODD.pattern[1:-1]
+_PLAIN_NAME = re.compile(rf"(?!either$)[^?:(){_ODD}-](?:[^{_ODD}]*[^{_ODD}-])?", re.IGNORECASE).fullmatch
 
 
 def typed_list(nodes: Sequence[Node], reporter: Reporter) -> list[tuple[Word, list[Word]]]:
@@ -29,6 +31,10 @@ def typed_list(nodes: Sequence[Node], reporter: Reporter) -> list[tuple[Word, li
         if isinstance(node, Group):
             raise reporter.error(f"expected a name or '-', found {describe(node)}", node)
         index += 1
+        if node.text.endswith("-") and not node.text.startswith("-"):
+            reporter.warn(f"expected a space before '-', found {describe(node)}", node)
+            untyped.append(Word(node.text[:-1], node.index))
+            node = Word("-", node.index)
         if not node.text.startswith("-"):
             untyped.append(node)
             continue

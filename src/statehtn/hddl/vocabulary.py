@@ -10,7 +10,7 @@ from typing import Literal
 from statehtn.errors import Place
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
-from statehtn.hddl.spelling import Spellings
+from statehtn.hddl.spelling import ODD, Spellings
 from statehtn.hddl.tokens import Source, shortened
 from statehtn.model import Parameter, Signature, TypeHierarchy
 from statehtn.model.types import ROOT_TYPE
@@ -235,6 +235,8 @@ def new_name(node: Node | None, kind: str, at: Node, reporter: Reporter) -> Word
         raise reporter.error(f"expected the name of the {kind} after {describe(at)}", at)
     if isinstance(node, Group) or node.text[0] in "?:" or node.lower in ("-", "either"):
         raise reporter.error(f"expected the name of a {kind}, found {describe(node)}", node)
+    if odd := ODD.search(node.text):
+        reporter.warn(f"no name in HDDL has a {odd[0]}, found {describe(node)}; other programs will not read it", node)
     return node
 
 

@@ -52,8 +52,8 @@ COST_REQUIREMENTS = ("action-costs", "probabilistic-effects")
 def write_hddl(problem: Problem) -> tuple[str, str]:
     """Return the texts of the domain and of the problem.
 
-    Names must be free of spaces, parentheses and semicolons, and those of one kind differ by more than case, as all
-    names do that the reader gives.
+    Names must be such as HDDL can write (`statehtn.hddl.spelling.is_name`), and those of one kind differ by more than
+    case, as the names that the reader and the builder give.
 
     Raises:
         UnsupportedError: a cost is a Python callable, which has no HDDL form.

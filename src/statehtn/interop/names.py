@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import chain, count
@@ -10,11 +9,9 @@ from typing import Any
 
 from statehtn.build.names import WORDS
 from statehtn.hddl.cost_reader import TOTAL_COST
-from statehtn.hddl.spelling import Spellings
+from statehtn.hddl.spelling import NOT_IN_NAMES, Spellings
 from statehtn.model import Problem
 from statehtn.model.types import ROOT_TYPE
-
-_NOT_IN_NAMES = re.compile(r"[\s();]+")
 
 
 class Names:
@@ -69,7 +66,7 @@ class Vocabulary:
 
 def our_name(theirs: str, taken: Spellings) -> str:
     """Return a name that HDDL can write, as similar as can be, and that is not taken: UP distinguishes case."""
-    name = _NOT_IN_NAMES.sub("_", theirs).lstrip("?:-") or "unnamed"
+    name = NOT_IN_NAMES.sub("_", theirs.lstrip("?:-")).strip(":-") or "unnamed"
     candidates = chain([name], (f"{name}-{number}" for number in count(2)))
     return next(one for one in candidates if taken.find(one) is None and one.lower() not in WORDS)
 
