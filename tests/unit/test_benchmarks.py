@@ -12,8 +12,12 @@ from hypothesis import strategies as st
 
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.switches import SearchSwitches
+from tests.benchmarks import limits
 from tests.benchmarks.ablation import ablation_table, choose, other_costs, variants
 from tests.benchmarks.growth import MEASURES, exponent_table, fit, points
+from tests.benchmarks.limits_case import Case as LimitedCase
+from tests.benchmarks.limits_case import Recorder
+from tests.benchmarks.limits_case import measure as measure_limits
 from tests.benchmarks.search import baseline_of
 from tests.benchmarks.search_case import Case, Row, search
 from tests.benchmarks.search_summary import domain_table, effort_table, ratios_of_bytes, summary
@@ -150,3 +154,35 @@ def test_a_growth_figure_is_drawn(tmp_path: Path) -> None:
     draw({"F": rows, "unsolved": [replace(row, status="time-limit")]}, files)
     assert "ground actions and methods" in files[0].read_text(encoding="utf-8")
     assert files[1].read_bytes().startswith(b"\x89PNG")
+
+
+def test_recorder_keeps_the_longest_stretch_and_its_ends() -> None:
+    times = iter((1.0, 1.5, 4.0, 4.25))
+    recorder = Recorder(lambda: next(times))
+    for place in ("begin", "middle", "late", "end"):
+        recorder.note(place)
+    assert recorder.longest == 2.5
+    assert recorder.between == ("middle", "late")
+
+
+def test_limits_summary_counts_what_is_over_the_marks() -> None:
+    held = limits.Row("A", "p1", "", 20, 1.0, 0.1, "x", "y", 0.05, 100.0, 200.0)
+    late = replace(held, problem="p2", longest_stretch=0.75, overrun=0.5, peak_memory_mb=230.0)
+    slow_to_stop = replace(held, signal="TERM", overrun=2.0)
+    crashed = limits.Row("A", "p3", exit_code=-11, message="gone")
+    lines = list(limits.summary([held, late, slow_to_stop, crashed], markdown=False))
+    assert lines[0] == "runs: 4; with a plan or a proof: 0"
+    assert lines[1] == "longest stretch between two looks, s: at most 0.750; over 0.3: 1 of 3"
+    assert lines[2] == "time after the limit, s: at most 0.500; over 0.3: 1 of 2"
+    assert lines[3] == "time after a signal, s: at most 2.000; over 0.3: 1 of 1"
+    assert lines[4] == "peak of memory, in parts of the limit: at most 1.150; over 1.1: 1 of 3"
+    assert lines[-2:] == ["Ended otherwise: 1", "  A p3: -11 gone"]
+
+
+def test_a_limited_run_is_measured_in_a_process_of_its_own() -> None:
+    command = ("plan", str(AV / "domain.hddl"), str(AV / "p1.hddl"), "--quiet")
+    found = measure_limits(LimitedCase(command, 60.0, 4000.0))
+    assert found["exit_code"] == 0, found["message"]
+    assert 0 < found["longest_stretch"] < found["cpu_seconds"]
+    assert found["overrun"] is None
+    assert found["peak_memory_mb"] > 1

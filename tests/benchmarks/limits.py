@@ -1,0 +1,179 @@
+"""Measure how well time limits, memory limits, Ctrl-C and SIGTERM hold, over folders of problems.
+
+Usage: python -m tests.benchmarks.limits [--root DIR ...] [--case DOMAIN PROBLEM ...] [--seconds S] [--memory-limit MB]
+           [--arguments "--search greedy"] [--signals] [--only TEXT] [--every N] [--output FILE.csv] [--markdown FILE.md]
+           [--resume] [--jobs N]
+
+Every problem is planned for in a process of its own with a limit of --seconds; with --signals it is planned for again
+twice without that limit, and gets SIGINT and SIGTERM after as many seconds. A line of CSV has: the longest stretch of
+the process's own time (CPU) between two looks at the limits, and between which looks that was; the CPU time that the
+run took after its limit or its signal (empty where it had ended before); its peak of memory. See `limits_case` for how.
+Prints how many are over the marks (0.3 s; 10 % more memory than allowed), and the worst ten of each. --every N takes
+every N-th problem only. The figures do not depend much on what else the machine does, but for the 10 ms of sampling.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import os
+import shlex
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+from statehtn.experiments.instances import find_instances
+from statehtn.experiments.run import Instance
+from tests.benchmarks.limits_case import Case, measure
+from tests.benchmarks.tables import figure, machine, read_rows, section, table
+
+MOST_SECONDS = 0.3
+MOST_MEMORY = 1.1  # times the limit
+WORST = 10
+
+
+@dataclass(frozen=True)
+class Row:
+    """One run; seconds of CPU time, MB (10^6 bytes). `overrun`: after the limit, or after the signal."""
+
+    domain: str
+    problem: str
+    signal: str = ""
+    exit_code: int | None = None
+    cpu_seconds: float | None = None
+    longest_stretch: float | None = None
+    after: str = ""
+    before: str = ""
+    overrun: float | None = None
+    peak_memory_mb: float | None = None
+    memory_limit_mb: float | None = None
+    message: str = ""
+
+    @property
+    def name(self) -> str:
+        return f"{self.domain} {self.problem}{f' SIG{self.signal}' if self.signal else ''}"
+
+    @property
+    def memory_ratio(self) -> float | None:
+        """The peak of memory, in parts of what was allowed."""
+        if self.peak_memory_mb is None or not self.memory_limit_mb:
+            return None
+        return self.peak_memory_mb / self.memory_limit_mb
+
+
+def summary(rows: list[Row], markdown: bool) -> Iterator[str]:
+    """Yield the lines of the report."""
+    bullet = "- " if markdown else ""
+    yield f"{bullet}runs: {len(rows)}; with a plan or a proof: {sum(row.exit_code in (0, 10) for row in rows)}"
+    kinds = (
+        ("longest stretch between two looks, s", MOST_SECONDS, lambda row: row.longest_stretch),
+        ("time after the limit, s", MOST_SECONDS, lambda row: None if row.signal else row.overrun),
+        ("time after a signal, s", MOST_SECONDS, lambda row: row.overrun if row.signal else None),
+        ("peak of memory, in parts of the limit", MOST_MEMORY, lambda row: row.memory_ratio),
+    )
+    for title, mark, value in kinds:
+        known = sorted(((value(row), row) for row in rows if value(row) is not None), key=lambda pair: -pair[0])
+        if not known:
+            continue
+        over = sum(one > mark for one, _ in known)
+        yield f"{bullet}{title}: at most {known[0][0]:.3f}; over {mark:g}: {over} of {len(known)}"
+    for title, _, value in kinds:
+        known = sorted(((value(row), row) for row in rows if value(row) is not None), key=lambda pair: -pair[0])
+        if known:
+            yield from ("", f"{'### ' if markdown else ''}Worst: {title}", "")
+            yield from table(
+                ("run", "figure", "exit", "CPU s", "MB", "between"),
+                [
+                    (
+                        row.name,
+                        f"{one:.3f}",
+                        figure(row.exit_code, "d"),
+                        figure(row.cpu_seconds, ".2f"),
+                        figure(row.peak_memory_mb, ".0f"),
+                        f"{row.after} .. {row.before}" if "stretch" in title else "",
+                    )
+                    for one, row in known[:WORST]
+                ],
+            )
+    odd = (f"{row.name}: {row.exit_code} {row.message}" for row in rows if row.exit_code not in USUAL)
+    yield from section("Ended otherwise", odd, markdown)
+
+
+USUAL = (0, 10, 12, 20, 21, 30, 31, 130)
+"""Exit codes of runs that ended as they should."""
+
+
+def run_all(todo: list[tuple[Instance, Case]], options: argparse.Namespace) -> list[Row]:
+    """Measure every case, write and show each as it ends; what the output has already is kept, if asked for."""
+    earlier = read_rows(Row, options.output) if options.resume and options.output and options.output.exists() else []
+    known = {(row.domain, row.problem, row.signal) for row in earlier}
+    todo = [(one, case) for one, case in todo if (one.domain, one.problem, case.signal) not in known]
+    rows = list(earlier)
+    with (
+        open(options.output or os.devnull, "w", newline="", encoding="utf-8") as file,
+        ThreadPoolExecutor(options.jobs) as pool,
+    ):
+        writer = csv.DictWriter(file, [field.name for field in fields(Row)])
+        writer.writeheader()
+        writer.writerows(asdict(row) for row in earlier)
+        for (instance, case), found in zip(todo, pool.map(lambda pair: measure(pair[1]), todo), strict=True):
+            row = Row(instance.domain, instance.problem, case.signal, memory_limit_mb=case.memory_mb, **found)
+            rows.append(row)
+            writer.writerow(asdict(row))
+            file.flush()
+            stretch, overrun = figure(row.longest_stretch, ".3f"), figure(row.overrun, ".3f")
+            memory = figure(row.peak_memory_mb, ".0f")
+            print(f"{row.name:<70} exit {row.exit_code} {stretch:>8} s {overrun:>8} s after {memory:>6} MB", flush=True)
+    return rows
+
+
+def cases(options: argparse.Namespace) -> list[tuple[Instance, Case]]:
+    """Return what is to be run."""
+    instances = [one for root in options.root for one in find_instances(root)]
+    instances += [Instance(Path(d).parent.name, Path(p).stem, d, p) for d, p in options.case]
+    instances = [one for one in instances if options.only in f"{one.domain} {one.problem}"][:: options.every]
+    more = tuple(shlex.split(options.arguments))
+    return [
+        (
+            one,
+            Case(
+                ("plan", one.domain_file, one.problem_file, "--quiet", *more),
+                options.seconds,
+                options.memory_limit,
+                sign,
+            ),
+        )
+        for one in instances
+        for sign in (("", "INT", "TERM") if options.signals else ("",))
+    ]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--root", type=Path, nargs="*", default=[], help="folders of benchmarks")
+    parser.add_argument("--case", nargs=2, action="append", default=[], metavar=("DOMAIN", "PROBLEM"))
+    parser.add_argument("--seconds", type=float, default=10.0)
+    parser.add_argument("--memory-limit", type=float, default=4000.0)
+    parser.add_argument("--arguments", default="", help="of `statehtn plan`, besides files and limits")
+    parser.add_argument("--signals", action="store_true", help="send SIGINT and SIGTERM, in runs of their own, too")
+    parser.add_argument("--only", default="", help="only problems whose domain and name contain this text")
+    parser.add_argument("--every", type=int, default=1, help="take every so many-th problem only")
+    parser.add_argument("--output", type=Path, help="write a line of CSV for each run as soon as it is done")
+    parser.add_argument("--markdown", type=Path, help="write the report there as Markdown")
+    parser.add_argument("--resume", action="store_true", help="keep what the output has already")
+    parser.add_argument("--jobs", type=int, default=1)
+    options = parser.parse_args()
+    todo = cases(options)
+    if not todo:
+        parser.error("no problem to run: name folders by --root or problems by --case")
+    rows = run_all(todo, options)
+    print("\n" + "\n".join(summary(rows, markdown=False)))
+    if options.markdown:
+        limits = f"Limits: {options.seconds:g} s and {options.memory_limit:g} MB. {machine()}."
+        lines = ["# How well limits hold: figures", "", limits, "", *summary(rows, markdown=True)]
+        options.markdown.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
