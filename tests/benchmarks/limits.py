@@ -1,8 +1,8 @@
 """Measure how well time limits, memory limits, Ctrl-C and SIGTERM hold, over folders of problems.
 
 Usage: python -m tests.benchmarks.limits [--root DIR ...] [--case DOMAIN PROBLEM ...] [--seconds S] [--memory-limit MB]
-           [--arguments "--search greedy"] [--signals] [--only TEXT] [--every N] [--output FILE.csv] [--markdown FILE.md]
-           [--resume] [--jobs N]
+           [--arguments "--search greedy"] [--signals] [--only TEXT] [--every N] [--output FILE.csv]
+           [--markdown FILE.md] [--resume] [--jobs N]
 
 Every problem is planned for in a process of its own with a limit of --seconds; with --signals it is planned for again
 twice without that limit, and gets SIGINT and SIGTERM after as many seconds. A line of CSV has: the longest stretch of
