@@ -31,7 +31,6 @@ class SpaceNode:
 
 def explore(problem: GroundProblem, utility: Utility, most_nodes: int = 150) -> list[SpaceNode]:
     """Nodes of the search space, those nearest to the initial node and with the smallest networks first."""
-    costs = [utility.risk_cost(action.cost) for action in problem.actions]
     nodes: dict[Key, SpaceNode] = {}
     counter = itertools.count()
     queue: list[tuple[int, int, int, SpaceNode]] = []
@@ -53,7 +52,8 @@ def explore(problem: GroundProblem, utility: Utility, most_nodes: int = 150) -> 
                 action = problem.actions[task]
                 if action.is_applicable(node.state):
                     network = replace(node.tasks, node.ordering, position, (), ())
-                    node.steps.append((costs[task], add(action.apply(node.state), *network, depth + 1)))
+                    cost = sum(map(utility.risk_cost, action.costs_in(node.state)))
+                    node.steps.append((cost, add(action.apply(node.state), *network, depth + 1)))
             else:
                 for method in (problem.methods[number] for number in problem.methods_of.get(task, ())):
                     network = replace(node.tasks, node.ordering, position, method.subtasks, method.ordering)

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "checked_prices.hpp"
 #include "python_limits.hpp"
+#include "relax/cost_shifting.hpp"
 #include "relax/search.hpp"
 #include "relax/state.hpp"
 #include "relax/tdg_bound.hpp"
@@ -24,10 +26,11 @@ namespace {
 // A heuristic on its own, for states and networks of the caller's choice.
 class Evaluator {
 public:
-    Evaluator(const relax::GroundProblem& problem, const std::vector<relax::Cost>& costs, relax::HeuristicKind kind)
+    Evaluator(const relax::GroundProblem& problem, const relax::Prices& prices, relax::HeuristicKind kind)
         : problem_(problem),
-          bounds_(relax::tdg_bound(problem, costs, limits_)),
-          heuristic_(relax::make_heuristic(kind, problem, costs, limits_)) {}
+          bounds_(relax::tdg_bound(problem, relax::shift_costs(problem, checked(problem, prices), limits_).actions,
+                                   limits_)),
+          heuristic_(relax::make_heuristic(kind, problem, prices, limits_)) {}
 
     std::optional<relax::Cost> evaluate(const std::vector<relax::FactId>& facts,
                                         const std::vector<relax::TaskId>& tasks) {
@@ -57,12 +60,9 @@ private:
     std::unique_ptr<relax::Heuristic> heuristic_;
 };
 
-relax::SearchResult find_plans(const relax::GroundProblem& problem, std::vector<relax::Cost> costs,
+relax::SearchResult find_plans(const relax::GroundProblem& problem, const relax::Prices& prices,
                                const relax::SearchOptions& options, std::optional<double> seconds,
                                std::optional<std::size_t> memory_bytes, const nb::object& progress) {
-    if (costs.size() != problem.action_count()) {
-        throw std::invalid_argument("there must be one cost for each action");
-    }
     if (options.algorithm != relax::SearchAlgorithm::Greedy && !relax::is_admissible(options.heuristic)) {
         throw std::invalid_argument("the heuristic must be admissible");
     }
@@ -73,7 +73,7 @@ relax::SearchResult find_plans(const relax::GroundProblem& problem, std::vector<
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::search(problem, std::move(costs), options, limits, statistics);
+    return relax::search(problem, checked(problem, prices), options, limits, statistics);
 }
 
 }  // namespace
@@ -102,6 +102,11 @@ void bind_find_plans(nb::module_& module) {
         .value("TimeLimit", relax::SearchStatus::TimeLimit)
         .value("MemoryLimit", relax::SearchStatus::MemoryLimit)
         .value("Interrupted", relax::SearchStatus::Interrupted);
+
+    nb::class_<relax::Prices>(module, "Prices")
+        .def(nb::init<std::vector<relax::Cost>, std::vector<relax::Cost>>(), "actions"_a, "parts"_a)
+        .def_ro("actions", &relax::Prices::actions)
+        .def_ro("parts", &relax::Prices::parts);
 
     nb::class_<relax::SearchOptions>(module, "SearchOptions")
         .def(nb::init<>())
@@ -145,14 +150,15 @@ void bind_find_plans(nb::module_& module) {
         .def_ro("statistics", &relax::SearchResult::statistics)
         .def_ro("cost", &relax::SearchResult::cost)
         .def_ro("decomposition", &relax::SearchResult::decomposition)
-        .def_ro("plan", &relax::SearchResult::plan);
+        .def_ro("plan", &relax::SearchResult::plan)
+        .def_ro("due_parts", &relax::SearchResult::due_parts);
 
     nb::class_<Evaluator>(module, "Evaluator")
-        .def(nb::init<const relax::GroundProblem&, const std::vector<relax::Cost>&, relax::HeuristicKind>(),
-             "problem"_a, "costs"_a, "kind"_a, nb::keep_alive<1, 2>())
+        .def(nb::init<const relax::GroundProblem&, const relax::Prices&, relax::HeuristicKind>(), "problem"_a,
+             "prices"_a, "kind"_a, nb::keep_alive<1, 2>())
         .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a)
         .def_prop_ro("model_bytes", &Evaluator::model_bytes);
 
-    module.def("find_plans", &find_plans, "problem"_a, "costs"_a, "options"_a, "seconds"_a = nb::none(),
+    module.def("find_plans", &find_plans, "problem"_a, "prices"_a, "options"_a, "seconds"_a = nb::none(),
                "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
 }

@@ -67,6 +67,7 @@ void bind_ground_problem(nb::module_& module) {
     nb::class_<GroundProblem>(module, "GroundProblem")
         .def_prop_ro("fact_count", &GroundProblem::fact_count)
         .def_prop_ro("action_count", &GroundProblem::action_count)
+        .def_prop_ro("cost_part_count", &GroundProblem::cost_part_count)
         .def_prop_ro("compound_count", &GroundProblem::compound_count)
         .def_prop_ro("method_count", &GroundProblem::method_count)
         .def_ro("fact_predicate", &GroundProblem::fact_predicate)
@@ -91,7 +92,18 @@ void bind_ground_problem(nb::module_& module) {
         .def("preconditions", &row<&GroundProblem::preconditions>)
         .def("negative_preconditions", &row<&GroundProblem::negative_preconditions>)
         .def("action_arguments", &row<&GroundProblem::action_arguments>)
-        .def("action_cost_parts", &row<&GroundProblem::action_cost_parts>)
+        .def("action_cost_blocks", &row<&GroundProblem::action_cost_blocks>)
+        .def("cost_parts",
+             [](const GroundProblem& problem, std::size_t action) {
+                 return std::pair(problem.cost_part_begin.at(action), problem.cost_part_begin.at(action + 1));
+             })
+        .def("cost_part_blocks", &row<&GroundProblem::cost_part_blocks>)
+        .def("cost_alternatives",
+             [](const GroundProblem& problem, std::size_t part) {
+                 return std::pair(problem.cost_alternative_begin.at(part), problem.cost_alternative_begin.at(part + 1));
+             })
+        .def("cost_conditions", &row<&GroundProblem::cost_conditions>)
+        .def("cost_negative_conditions", &row<&GroundProblem::cost_negative_conditions>)
         .def("effect_conditions", &row<&GroundProblem::effect_conditions>)
         .def("effect_negative_conditions", &row<&GroundProblem::effect_negative_conditions>)
         .def("effect_adds", &row<&GroundProblem::effect_adds>)

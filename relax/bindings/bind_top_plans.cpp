@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "checked_prices.hpp"
 #include "python_limits.hpp"
 #include "relax/top_plans.hpp"
 
@@ -17,12 +18,12 @@ using namespace nb::literals;
 
 namespace {
 
-relax::TopPlansResult top_plans(const relax::GroundProblem& problem, std::vector<relax::Cost> costs,
+relax::TopPlansResult top_plans(const relax::GroundProblem& problem, const relax::Prices& prices,
                                 std::vector<std::optional<relax::ActionLabel>> labels,
                                 const relax::TopPlansOptions& options, std::optional<double> seconds,
                                 std::optional<std::size_t> memory_bytes, const nb::object& progress) {
-    if (costs.size() != problem.action_count() || labels.size() != problem.action_count()) {
-        throw std::invalid_argument("there must be one cost and one label for each action");
+    if (labels.size() != problem.action_count()) {
+        throw std::invalid_argument("there must be one label for each action");
     }
     if (!relax::is_admissible(options.search.heuristic)) {
         throw std::invalid_argument("the heuristic must be admissible");
@@ -34,7 +35,7 @@ relax::TopPlansResult top_plans(const relax::GroundProblem& problem, std::vector
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::top_plans(problem, std::move(costs), std::move(labels), options, limits, statistics);
+    return relax::top_plans(problem, checked(problem, prices), std::move(labels), options, limits, statistics);
 }
 
 }  // namespace
@@ -61,6 +62,6 @@ void bind_top_plans(nb::module_& module) {
         .def_ro("statistics", &relax::TopPlansResult::statistics)
         .def_ro("plans", &relax::TopPlansResult::plans);
 
-    module.def("top_plans", &top_plans, "problem"_a, "costs"_a, "labels"_a, "options"_a, "seconds"_a = nb::none(),
+    module.def("top_plans", &top_plans, "problem"_a, "prices"_a, "labels"_a, "options"_a, "seconds"_a = nb::none(),
                "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
 }

@@ -6,6 +6,7 @@
 #include <ranges>
 #include <utility>
 
+#include "relax/cost_shifting.hpp"
 #include "relax/plan_trace.hpp"
 #include "relax/tdg_bound.hpp"
 
@@ -27,22 +28,23 @@ ProgressionOptions progression_options(const SearchOptions& options) {
 
 }  // namespace
 
-FindPlans::FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
-                     Limits& limits, SearchStatistics& statistics)
+FindPlans::FindPlans(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                     SearchStatistics& statistics)
     : problem_(problem),
-      costs_(std::move(costs)),
+      prices_(std::move(prices)),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_, limits), progression_options(options), limits),
+      progression_(problem, prices_, tdg_bound(problem, shift_costs(problem, prices_, limits).actions, limits),
+                   progression_options(options), limits),
       nodes_(progression_.networks()) {
     if (options.check_endings && !progression_.networks().are_totally_ordered()) {
         ending_.emplace(problem, limits);
     }
     const bool asks_always = !options.ask_adaptively;
-    heuristics_.emplace_back(make_heuristic(options.heuristic, problem, costs_, limits), asks_always);
+    heuristics_.emplace_back(make_heuristic(options.heuristic, problem, prices_, limits), asks_always);
     for (const HeuristicKind kind : options.more_heuristics) {
-        heuristics_.emplace_back(make_heuristic(kind, problem, costs_, limits), asks_always);
+        heuristics_.emplace_back(make_heuristic(kind, problem, prices_, limits), asks_always);
     }
 }
 
@@ -97,7 +99,7 @@ SearchResult FindPlans::result() {
     const Cost bound = proven();
     result.is_stopped = stop_.has_value();
     if (goal_) {
-        trace_plan(problem_, costs_, progression_, nodes_, *goal_, result);
+        trace_plan(problem_, prices_, progression_, nodes_, *goal_, result);
     }
     if (result.cost) {
         statistics_.best = result.cost;

@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "relax/cost_shifting.hpp"
 #include "relax/plan_trace.hpp"
 #include "relax/tdg_bound.hpp"
 
@@ -18,15 +19,16 @@ constexpr std::uint64_t kMoreEvaluations = 200;  // after the first plan, beside
 
 }  // namespace
 
-GreedySearch::GreedySearch(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
-                           Limits& limits, SearchStatistics& statistics)
+GreedySearch::GreedySearch(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                           SearchStatistics& statistics)
     : problem_(problem),
-      costs_(std::move(costs)),
+      prices_(std::move(prices)),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_, limits), options, limits),
-      heuristic_(make_heuristic(options.heuristic, problem, costs_, limits)),
+      progression_(problem, prices_, tdg_bound(problem, shift_costs(problem, prices_, limits).actions, limits), options,
+                   limits),
+      heuristic_(make_heuristic(options.heuristic, problem, prices_, limits)),
       nodes_(progression_.networks()),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
 
@@ -48,7 +50,7 @@ SearchResult GreedySearch::run() {
     Cost proven = progression_.networks().bound(progression_.initial_network());
     result.is_stopped = stop.has_value();
     if (goal_) {
-        trace_plan(problem_, costs_, progression_, nodes_, *goal_, result);
+        trace_plan(problem_, prices_, progression_, nodes_, *goal_, result);
         statistics_.best = result.cost;
         result.status = proven >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
         statistics_.lower_bound = std::min(proven, *result.cost);

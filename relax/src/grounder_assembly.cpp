@@ -107,6 +107,8 @@ private:
     // compound tasks.
     void write_actions() {
         problem_.effect_begin.push_back(0);
+        problem_.cost_part_begin.push_back(0);
+        problem_.cost_alternative_begin.push_back(0);
         for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
             for_each_living_node(action, [&](NodeId node) {
                 if (cases_[node].size() == 1) {
@@ -118,7 +120,6 @@ private:
                     write_action(one, number_of_fact_, problem_);
                     problem_.action_schema.push_back(action);
                     problem_.action_arguments.add_row(arguments_of(action, node));
-                    problem_.action_cost_parts.add_row(remains_.cases.cost_parts[one.number]);
                 }
             });
         }

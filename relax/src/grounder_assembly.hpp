@@ -33,19 +33,23 @@ GroundProblem assemble(const Remains& remains);
 // Changes by condition: the unconditional ones come first.
 using Effects = std::map<Conjunction, Conjunction>;
 
-// A case of an action, with what remains of its precondition and its effects.
+// Blocks of an action's cost (as GroundProblem::action_cost_blocks) by the condition on which they are due.
+using Costs = std::map<Disjunction, std::vector<std::uint32_t>>;
+
+// A case of an action, with what remains of its precondition, its effects and its cost.
 struct RemainingCase {
     CaseId number;
     Conjunction condition;
     Effects effects;
+    Costs costs;
 };
 // At least one.
 std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action);
 
-// Facts of preconditions, and of conditions of effects on such facts.
+// Facts of preconditions and of conditions of costs, and of conditions of effects on such facts.
 std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vector<RemainingCase>>& cases_of_actions);
 
-// Append the precondition and the effects of a case, with facts numbered by
+// Append the precondition, the effects and the cost of a case, with facts numbered by
 // `number_of_fact`.
 void write_action(const RemainingCase& one, const std::vector<std::optional<FactId>>& number_of_fact,
                   GroundProblem& problem);

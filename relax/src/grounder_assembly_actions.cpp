@@ -19,20 +19,20 @@ Conjunction without_constants(const Remains& remains, std::span<const Literal> c
     return rest;
 }
 
-// What is left of an effect's condition where the action's precondition holds;
-// nothing if the effect cannot happen.
-std::optional<Conjunction> condition_within(const Remains& remains, std::uint32_t effect,
+// What is left of a condition where the action's precondition holds; nothing if
+// it cannot hold then.
+std::optional<Conjunction> condition_within(const Remains& remains, std::span<const Literal> condition,
                                             const Conjunction& precondition) {
-    Conjunction condition;
-    for (const Literal literal : without_constants(remains, remains.cases.effect_condition[effect])) {
-        if (contains(precondition, negation(literal))) {
+    Conjunction rest;
+    for (const Literal literal : condition) {
+        if (!remains.is_literal_reached[literal] || contains(precondition, negation(literal))) {
             return std::nullopt;
         }
-        if (!contains(precondition, literal)) {
-            condition.push_back(literal);
+        if (remains.is_literal_reached[negation(literal)] && !contains(precondition, literal)) {
+            rest.push_back(literal);
         }
     }
-    return condition;
+    return rest;
 }
 
 // Drop changes that change nothing.
@@ -71,7 +71,7 @@ Effects effects_of(const Remains& remains, CaseId number, const Conjunction& pre
     Effects effects;
     for (std::uint32_t effect = remains.cases.effect_begin[owner]; effect < remains.cases.effect_begin[owner + 1];
          ++effect) {
-        const auto condition = condition_within(remains, effect, precondition);
+        const auto condition = condition_within(remains, remains.cases.effect_condition[effect], precondition);
         if (remains.cases.is_effect_alive[effect] && condition) {
             Conjunction& changes = effects[*condition];
             std::ranges::copy(remains.cases.effect_changes[effect], std::back_inserter(changes));
@@ -81,6 +81,26 @@ Effects effects_of(const Remains& remains, CaseId number, const Conjunction& pre
     return effects;
 }
 
+Costs costs_of(const Remains& remains, CaseId number, const Conjunction& precondition) {
+    const Cases& cases = remains.cases;
+    const NodeId owner = cases.owner[number];
+    Costs costs;
+    for (std::uint32_t part = cases.cost_begin[owner]; part < cases.cost_begin[owner + 1]; ++part) {
+        Disjunction condition;
+        for (std::uint32_t alternative = cases.cost_alternative_begin[part];
+             alternative < cases.cost_alternative_begin[part + 1]; ++alternative) {
+            if (auto rest = condition_within(remains, cases.cost_condition[alternative], precondition)) {
+                condition.push_back(*std::move(rest));
+            }
+        }
+        drop_subsumed(condition);
+        if (!condition.empty()) {
+            std::ranges::copy(cases.cost_blocks[part], std::back_inserter(costs[condition]));
+        }
+    }
+    return costs;
+}
+
 }  // namespace
 
 std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action) {
@@ -88,19 +108,18 @@ std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action
     std::vector<RemainingCase> candidates;
     for (CaseId number = remains.cases.begin[action]; number < remains.cases.begin[action + 1]; ++number) {
         if (remains.cases.is_alive[number]) {
-            candidates.push_back({number, without_constants(remains, remains.cases.condition[number]), {}});
+            candidates.push_back({number, without_constants(remains, remains.cases.condition[number]), {}, {}});
         }
     }
     std::ranges::stable_sort(candidates, {}, [](const RemainingCase& one) { return one.condition.size(); });
     std::vector<RemainingCase> kept;
     for (RemainingCase& candidate : candidates) {
         const auto covers = [&](const RemainingCase& other) {
-            return std::ranges::includes(candidate.condition, other.condition) &&
-                   std::ranges::equal(remains.cases.cost_parts[candidate.number],
-                                      remains.cases.cost_parts[other.number]);
+            return std::ranges::includes(candidate.condition, other.condition);
         };
         if (kept.size() > kMostComparedCases || std::ranges::none_of(kept, covers)) {
             candidate.effects = effects_of(remains, candidate.number, candidate.condition);
+            candidate.costs = costs_of(remains, candidate.number, candidate.condition);
             kept.push_back(std::move(candidate));
         }
     }
@@ -120,6 +139,9 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vect
     for (const std::vector<RemainingCase>& cases : cases_of_actions) {
         for (const RemainingCase& one : cases) {
             read(one.condition);
+            for (const auto& [condition, blocks] : one.costs) {
+                std::ranges::for_each(condition, read);
+            }
         }
     }
     // Effects on facts that nothing reads must not keep others alive.
@@ -157,6 +179,19 @@ void write_action(const RemainingCase& one, const std::vector<std::optional<Fact
         }
     }
     problem.effect_begin.push_back(static_cast<EffectId>(problem.effect_adds.size()));
+    for (const auto& [condition, blocks] : one.costs) {
+        if (is_true(condition)) {
+            std::ranges::for_each(blocks, [&](std::uint32_t entry) { problem.action_cost_blocks.push(entry); });
+            continue;
+        }
+        problem.cost_part_blocks.add_row(blocks);
+        for (const Conjunction& alternative : condition) {
+            write(alternative, problem.cost_conditions, problem.cost_negative_conditions);
+        }
+        problem.cost_alternative_begin.push_back(static_cast<std::uint32_t>(problem.cost_conditions.size()));
+    }
+    problem.action_cost_blocks.finish_row();
+    problem.cost_part_begin.push_back(static_cast<CostPartId>(problem.cost_part_count()));
 }
 
 }  // namespace relax::grounding

@@ -68,6 +68,7 @@ public:
     }
 
     Cases make() {
+        cases_.cost_alternative_begin.push_back(0);
         for (std::uint32_t action = 0; action < knowledge_.problem.actions.size(); ++action) {
             const NormalAction normal = normal_action(knowledge_.problem.actions[action]);
             const TupleId count = knowledge_.relations[knowledge_.task_relation(action)].size();
@@ -76,22 +77,21 @@ public:
                 add_instance(action, normal, instance);
             }
         }
-        cases_.begin.push_back(static_cast<CaseId>(cases_.owner.size()));
-        cases_.effect_begin.push_back(static_cast<std::uint32_t>(cases_.effect_owner.size()));
+        begin_instance();
         cases_.is_alive.assign(cases_.owner.size(), true);
         cases_.is_effect_alive.assign(cases_.effect_owner.size(), true);
         return std::move(cases_);
     }
 
 private:
-    struct Case {
-        Conjunction condition;
-        std::vector<std::uint32_t> cost_parts;
-    };
-
-    void add_instance(std::uint32_t action, const NormalAction& normal, TupleId instance) {
+    void begin_instance() {
         cases_.begin.push_back(static_cast<CaseId>(cases_.owner.size()));
         cases_.effect_begin.push_back(static_cast<std::uint32_t>(cases_.effect_owner.size()));
+        cases_.cost_begin.push_back(static_cast<std::uint32_t>(cases_.cost_blocks.size()));
+    }
+
+    void add_instance(std::uint32_t action, const NormalAction& normal, TupleId instance) {
+        begin_instance();
         const auto own = std::ranges::equal_range(order_, std::pair(action, instance), {}, [&](std::uint32_t at) {
             return std::pair(dependents_.keys[at].action, dependents_.keys[at].instance);
         });
@@ -103,55 +103,45 @@ private:
         Bindings bindings(knowledge_.problem.actions[action].slot_count, 0);
         std::ranges::copy(arguments, bindings.begin());
         try {
-            add_cases(action, node, normal, own, bindings);
+            add_cases(node, normal, bindings);
             add_effects(action, node, normal, own, bindings);
+            add_costs(action, normal, own, bindings);
         } catch (const CaseLimitExceeded&) {
             throw TooManyCases{action, instance};
         }
     }
 
-    template <typename Keys>
-    void add_cases(std::uint32_t action, NodeId node, const NormalAction& normal, const Keys& own, Bindings& bindings) {
-        const LiftedAction& lifted = knowledge_.problem.actions[action];
-        std::vector<Case> cases;
-        for (Conjunction& condition : expander_.expand(normal.precondition, bindings)) {
-            cases.push_back({std::move(condition), {}});
+    void add_cases(NodeId node, const NormalAction& normal, Bindings& bindings) {
+        for (const Conjunction& condition : expander_.expand(normal.precondition, bindings)) {
+            cases_.owner.push_back(node);
+            cases_.condition.add_row(condition);
         }
+    }
+
+    // Blocks that are due on the same condition are one part.
+    template <typename Keys>
+    void add_costs(std::uint32_t action, const NormalAction& normal, const Keys& own, Bindings& bindings) {
+        const LiftedAction& lifted = knowledge_.problem.actions[action];
+        std::map<Disjunction, std::vector<std::uint32_t>> costs;
         for (const std::uint32_t at : own) {
             const std::uint32_t dependent = dependents_.keys[at].dependent;
             if (dependent >= lifted.effects.size()) {
                 const LiftedCostCondition& cost = lifted.cost_conditions[dependent - lifted.effects.size()];
                 const std::span<const ObjectId> objects = dependents_.objects[at];
                 bind(cost.variables, objects, bindings);
-                std::vector<std::uint32_t> part{cost.block, static_cast<std::uint32_t>(objects.size())};
-                part.insert(part.end(), objects.begin(), objects.end());
-                split(cases, expander_.expand(normal.dependents[dependent], bindings), part);
+                std::vector<std::uint32_t>& blocks = costs[expander_.expand(normal.dependents[dependent], bindings)];
+                blocks.push_back(cost.block);
+                blocks.push_back(static_cast<std::uint32_t>(objects.size()));
+                blocks.insert(blocks.end(), objects.begin(), objects.end());
             }
         }
-        for (const Case& one : cases) {
-            cases_.owner.push_back(node);
-            cases_.condition.add_row(one.condition);
-            cases_.cost_parts.add_row(one.cost_parts);
-        }
-    }
-
-    // Part every case by whether the condition holds, on which a part of the cost
-    // is due.
-    static void split(std::vector<Case>& cases, const Disjunction& condition, const std::vector<std::uint32_t>& part) {
-        std::vector<Case> result;
-        const Disjunction otherwise = negate(condition);
-        for (const Case& one : cases) {
-            for (const bool is_due : {true, false}) {
-                for (Conjunction& both : conjoin({{one.condition}, is_due ? condition : otherwise})) {
-                    Case& next = result.emplace_back(Case{std::move(both), one.cost_parts});
-                    if (is_due) {
-                        next.cost_parts.insert(next.cost_parts.end(), part.begin(), part.end());
-                    }
-                }
+        for (const auto& [condition, blocks] : costs) {
+            cases_.cost_blocks.add_row(blocks);
+            for (const Conjunction& alternative : condition) {
+                cases_.cost_condition.add_row(alternative);
             }
-            check_case_count(result.size());
+            cases_.cost_alternative_begin.push_back(static_cast<std::uint32_t>(cases_.cost_condition.size()));
         }
-        cases = std::move(result);
     }
 
     static void bind(const std::vector<LiftedVariable>& variables, std::span<const ObjectId> objects,

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "relax/cost_shifting.hpp"
 #include "relax/hmax.hpp"
 #include "relax/lm_cut.hpp"
 #include "relax/rc_heuristic.hpp"
@@ -44,9 +45,10 @@ private:
 template <typename ClassicalHeuristic>
 class Slack final : public Heuristic {
 public:
-    Slack(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
-        : slack_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, costs, limits)), limits),
-                 limits) {}
+    Slack(const GroundProblem& problem, const Prices& prices, Limits& limits)
+        : slack_(
+              RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, prices.actions, limits)), limits),
+              limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = slack_.evaluate(node);
@@ -93,25 +95,30 @@ public:
 
 }  // namespace
 
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs,
+std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, const Prices& true_prices,
                                           Limits& limits) {
+    const Prices prices = shift_costs(problem, true_prices, limits);
     switch (kind) {
         case HeuristicKind::Blind:
             return std::make_unique<Blind>();
         case HeuristicKind::Tdg:
             return std::make_unique<TdgBound>();
         case HeuristicKind::HMax:
-            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, costs, limits), limits);
+            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, prices.actions, limits),
+                                                             limits);
         case HeuristicKind::LmCut:
-            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, costs, limits), limits);
+            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, prices.actions, limits),
+                                                        limits);
         case HeuristicKind::Potential:
-            return std::make_unique<Slack<LmCut>>(problem, costs, limits);
+            return std::make_unique<Slack<LmCut>>(problem, prices, limits);
         case HeuristicKind::PotentialHMax:
-            return std::make_unique<Slack<PricedHMax>>(problem, costs, limits);
+            return std::make_unique<Slack<PricedHMax>>(problem, prices, limits);
         case HeuristicKind::Add:
-            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, costs, limits), limits);
+            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, prices.actions, limits),
+                                                           limits);
         case HeuristicKind::Ff:
-            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, costs, limits), limits);
+            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, prices.actions, limits),
+                                                     limits);
     }
     return nullptr;
 }

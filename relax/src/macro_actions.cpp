@@ -24,6 +24,9 @@ MacroActions::MacroActions(const GroundProblem& problem, Limits& limits)
 }
 
 bool MacroActions::fits(ActionId action) const {
+    if (!problem_.cost_parts(action).empty()) {
+        return false;
+    }
     for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {
         if (!problem_.effect_conditions[effect].empty() || !problem_.effect_negative_conditions[effect].empty()) {
             return false;

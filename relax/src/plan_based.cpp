@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "relax/cost_shifting.hpp"
 #include "relax/plan_trace.hpp"
 #include "relax/tdg_bound.hpp"
 
@@ -36,16 +37,17 @@ std::vector<Cost> make_bounds(const GroundProblem& problem, std::span<const Cost
 
 }  // namespace
 
-PlanBased::PlanBased(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
-                     Limits& limits, SearchStatistics& statistics)
+PlanBased::PlanBased(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                     SearchStatistics& statistics)
     : problem_(problem),
-      costs_(std::move(costs)),
+      prices_(std::move(prices)),
       options_(options),
       limits_(limits),
       statistics_(statistics),
       is_choice_(find_choices(problem)),
-      task_bounds_(make_bounds(problem, costs_, is_choice_, options.heuristic, limits)),
-      progression_(problem, costs_, task_bounds_, options, limits),
+      task_bounds_(
+          make_bounds(problem, shift_costs(problem, prices_, limits).actions, is_choice_, options.heuristic, limits)),
+      progression_(problem, prices_, task_bounds_, options, limits),
       linearisation_(progression_, limits),
       open_preconditions_(problem, limits) {}
 
@@ -190,7 +192,7 @@ void PlanBased::trace(SearchResult& result) {
     }
     std::reverse(steps.begin(), steps.end());
     steps.insert(steps.end(), solution_->order.begin(), solution_->order.end());
-    trace_steps(problem_, costs_, progression_, steps, result);
+    trace_steps(problem_, prices_, progression_, steps, result);
 }
 
 }  // namespace relax

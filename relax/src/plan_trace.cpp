@@ -3,23 +3,29 @@
 #include <algorithm>
 #include <vector>
 
+#include "relax/cost.hpp"
+#include "relax/state.hpp"
+
 namespace relax {
 
-void trace_plan(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
+void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression,
                 const DuplicateRegistry& nodes, NodeId goal, SearchResult& result) {
     std::vector<SearchStep> steps;
     for (NodeId id = goal; nodes[id].parent != id; id = nodes[id].parent) {
         steps.push_back(nodes[id].step());
     }
     std::reverse(steps.begin(), steps.end());
-    trace_steps(problem, costs, progression, steps, result);
+    trace_steps(problem, prices, progression, steps, result);
 }
 
 // Walk the steps once more and keep track of which task of the decomposition tree each occurrence is.
-void trace_steps(const GroundProblem& problem, std::span<const Cost> costs, Progression& progression,
+void trace_steps(const GroundProblem& problem, const Prices& prices, Progression& progression,
                  std::span<const SearchStep> steps, SearchResult& result) {
     TaskNetworks& networks = progression.networks();
     NetworkId network = progression.initial_network();
+    const StateTransition transition(problem);
+    StateBits state = transition.initial_state();
+    StateBits next(state.size());
     std::vector<std::uint32_t> tree_node{0};  // by occurrence
     std::vector<std::uint32_t> next_tree_node;
     std::vector<Origin> origins;
@@ -32,7 +38,16 @@ void trace_steps(const GroundProblem& problem, std::span<const Cost> costs, Prog
             network = networks.decompose(network, step.occurrence, *step.method, &origins);
         } else {
             result.plan.push_back(here);
-            *result.cost += costs[result.decomposition[here].task];
+            const TaskId action = result.decomposition[here].task;
+            result.cost = add_bounds(*result.cost, prices.actions[action]);
+            for (const CostPartId part : problem.cost_parts(action)) {
+                if (transition.is_due(part, state)) {
+                    result.cost = add_bounds(*result.cost, prices.parts[part]);
+                    result.due_parts.push_back(part);
+                }
+            }
+            transition.apply(action, state, next);
+            state.swap(next);
             network = networks.progress(network, step.occurrence, &origins);
         }
         next_tree_node.clear();

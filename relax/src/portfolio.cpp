@@ -16,9 +16,9 @@ constexpr std::uint64_t kPreparation = 100;      // of a relaxed model, for each
 
 }  // namespace
 
-Portfolio::Portfolio(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
-                     Limits& limits, SearchStatistics& statistics)
-    : problem_(problem), costs_(std::move(costs)), options_(options), limits_(limits), statistics_(statistics) {
+Portfolio::Portfolio(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                     SearchStatistics& statistics)
+    : problem_(problem), prices_(std::move(prices)), options_(options), limits_(limits), statistics_(statistics) {
     members_.push_back({HeuristicKind::Tdg, {}, {}, nullptr});
     members_.push_back({HeuristicKind::LmCut, {}, {}, nullptr});
     members_.push_back({HeuristicKind::PotentialHMax, {HeuristicKind::Potential, HeuristicKind::LmCut}, {}, nullptr});
@@ -51,7 +51,7 @@ bool Portfolio::take_turn(Member& member, std::uint64_t work) {
         options.heuristic = member.heuristic;
         options.more_heuristics = member.more_heuristics;
         try {
-            member.search = std::make_unique<FindPlans>(problem_, costs_, options, limits_, member.statistics);
+            member.search = std::make_unique<FindPlans>(problem_, prices_, options, limits_, member.statistics);
         } catch (const Stopped& stopped) {
             stop_ = stopped.reason;
         } catch (const std::bad_alloc&) {

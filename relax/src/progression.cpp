@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "relax/cost.hpp"
+
 namespace relax {
 
 namespace {
@@ -29,15 +31,18 @@ std::optional<ActionId> first_action(const GroundProblem& problem, MethodId meth
 
 }  // namespace
 
-Progression::Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
+Progression::Progression(const GroundProblem& problem, Prices prices, std::vector<Cost> task_bounds,
                          const ProgressionOptions& options, Limits& limits)
     : problem_(problem),
-      costs_(std::move(costs)),
+      prices_(std::move(prices)),
       transition_(problem),
       states_(transition_.word_count()),
       networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros, limits)),
       branching_(problem),
       next_(transition_.word_count()) {
+    for (ActionId action = 0; action < problem.action_count(); ++action) {
+        is_void_.push_back(is_void(action));
+    }
     if (options.use_stubborn_sets) {
         stubborn_set_.emplace(problem, limits);
     }
@@ -118,9 +123,27 @@ void Progression::choose_actions(StateId state, NetworkId network) {
     }
 }
 
-bool Progression::is_in_the_way(TaskId task) const {
-    return problem_.is_primitive(task) && costs_[task] == 0 && transition_.has_no_effect(task) &&
-           (hurried_.empty() || hurried_[task]);
+void Progression::hurry_only(const std::vector<bool>& actions) {
+    for (ActionId action = 0; action < problem_.action_count(); ++action) {
+        is_void_[action] = is_void_[action] && actions[action];
+    }
+}
+
+// Whether the action changes nothing, and costs nothing whatever the state is.
+bool Progression::is_void(ActionId action) const {
+    return transition_.has_no_effect(action) && prices_.actions[action] == 0 &&
+           std::ranges::all_of(problem_.cost_parts(action),
+                               [this](CostPartId part) { return prices_.parts[part] == 0; });
+}
+
+Cost Progression::cost(ActionId action, std::span<const std::uint64_t> state) const {
+    Cost sum = prices_.actions[action];
+    for (const CostPartId part : problem_.cost_parts(action)) {
+        if (transition_.is_due(part, state)) {
+            sum = add_bounds(sum, prices_.parts[part]);
+        }
+    }
+    return sum;
 }
 
 void Progression::find_live_methods(StateId state) {
@@ -172,7 +195,7 @@ Successor Progression::decompose(StateId state, NetworkId network, const Occurre
 Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {
     transition_.apply(occurrence.task, states_[state], next_);
     const NetworkId next = networks_->progress(network, occurrence.index);
-    return {keep_relevant(next), next, costs_[occurrence.task], {occurrence.index, std::nullopt}};
+    return {keep_relevant(next), next, cost(occurrence.task, states_[state]), {occurrence.index, std::nullopt}};
 }
 
 // Returns the state of the facts in `next_`, as far as they matter to the network.

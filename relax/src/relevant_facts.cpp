@@ -45,6 +45,12 @@ void RelevantFacts::add_reads(ActionId action) {
         add(problem_.effect_conditions[effect]);
         add(problem_.effect_negative_conditions[effect]);
     }
+    for (const CostPartId part : problem_.cost_parts(action)) {
+        for (const std::uint32_t alternative : problem_.cost_alternatives(part)) {
+            add(problem_.cost_conditions[alternative]);
+            add(problem_.cost_negative_conditions[alternative]);
+        }
+    }
 }
 
 // Tarjan's algorithm (1972) without recursion: components are closed after all that they lead to.

@@ -12,18 +12,18 @@ namespace relax {
 
 namespace {
 
-SearchResult search_or_throw(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options,
-                             Limits& limits, SearchStatistics& statistics) {
+SearchResult search_or_throw(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                             SearchStatistics& statistics) {
     if (options.algorithm == SearchAlgorithm::Greedy) {
-        return GreedySearch(problem, std::move(costs), options, limits, statistics).run();
+        return GreedySearch(problem, std::move(prices), options, limits, statistics).run();
     }
     if (options.algorithm == SearchAlgorithm::PlanBased) {
-        return PlanBased(problem, std::move(costs), options, limits, statistics).run();
+        return PlanBased(problem, std::move(prices), options, limits, statistics).run();
     }
     if (options.algorithm == SearchAlgorithm::Portfolio) {
-        return Portfolio(problem, std::move(costs), options, limits, statistics).run();
+        return Portfolio(problem, std::move(prices), options, limits, statistics).run();
     }
-    return FindPlans(problem, std::move(costs), options, limits, statistics).run();
+    return FindPlans(problem, std::move(prices), options, limits, statistics).run();
 }
 
 // The end of a search that a limit stopped while it was being prepared.
@@ -37,10 +37,10 @@ SearchResult stopped_early(StopReason reason, const SearchStatistics& statistics
 
 }  // namespace
 
-SearchResult search(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+SearchResult search(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
                     SearchStatistics& statistics) {
     try {
-        return search_or_throw(problem, std::move(costs), options, limits, statistics);
+        return search_or_throw(problem, std::move(prices), options, limits, statistics);
     } catch (const Stopped& stopped) {
         return stopped_early(stopped.reason, statistics);
     } catch (const std::bad_alloc&) {

@@ -48,6 +48,12 @@ void StateTransition::apply(ActionId action, std::span<const std::uint64_t> stat
     }
 }
 
+bool StateTransition::is_due(CostPartId part, std::span<const std::uint64_t> state) const {
+    return std::ranges::any_of(problem_.cost_alternatives(part), [&](std::uint32_t alternative) {
+        return meets(state, problem_.cost_conditions[alternative], problem_.cost_negative_conditions[alternative]);
+    });
+}
+
 bool StateTransition::fires(EffectId effect, std::span<const std::uint64_t> state) const {
     return meets(state, problem_.effect_conditions[effect], problem_.effect_negative_conditions[effect]);
 }

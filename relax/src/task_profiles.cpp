@@ -21,14 +21,21 @@ TaskProfile TaskProfiles::of_action(ActionId action) const {
         result.preconditions.push_back(2 * fact + 1);
     }
     result.read_list = result.preconditions;
-    for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {
-        for (const auto& condition :
-             {problem_.effect_conditions[effect], problem_.effect_negative_conditions[effect]}) {
-            for (const FactId fact : condition) {
-                result.read_list.push_back(2 * fact);
-                result.read_list.push_back(2 * fact + 1);
-            }
+    const auto read_either_way = [&result](std::span<const FactId> facts) {
+        for (const FactId fact : facts) {
+            result.read_list.push_back(2 * fact);
+            result.read_list.push_back(2 * fact + 1);
         }
+    };
+    for (const CostPartId part : problem_.cost_parts(action)) {
+        for (const std::uint32_t alternative : problem_.cost_alternatives(part)) {
+            read_either_way(problem_.cost_conditions[alternative]);
+            read_either_way(problem_.cost_negative_conditions[alternative]);
+        }
+    }
+    for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {
+        read_either_way(problem_.effect_conditions[effect]);
+        read_either_way(problem_.effect_negative_conditions[effect]);
         const bool is_certain =
             problem_.effect_conditions[effect].empty() && problem_.effect_negative_conditions[effect].empty();
         const auto make = [&](Literal literal) {

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "relax/cost_shifting.hpp"
 #include "relax/plan_trace.hpp"
 #include "relax/tdg_bound.hpp"
 
@@ -32,28 +33,27 @@ ProgressionOptions allowed(const TopPlansOptions& options) {
 
 }  // namespace
 
-TopPlans::TopPlans(const GroundProblem& problem, std::vector<Cost> costs,
-                   std::vector<std::optional<ActionLabel>> labels, const TopPlansOptions& options, Limits& limits,
-                   TopPlansStatistics& statistics)
+TopPlans::TopPlans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionLabel>> labels,
+                   const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics)
     : problem_(problem),
-      costs_(std::move(costs)),
+      prices_(std::move(prices)),
       labels_(std::move(labels)),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, costs_, tdg_bound(problem, costs_, limits), allowed(options), limits),
-      heuristic_(make_heuristic(options.search.heuristic, problem, costs_, limits)) {
+      progression_(problem, prices_, tdg_bound(problem, shift_costs(problem, prices_, limits).actions, limits),
+                   allowed(options), limits),
+      heuristic_(make_heuristic(options.search.heuristic, problem, prices_, limits)) {
     if (options_.distinct == Distinct::Sequence) {
         progression_.hurry_only(without_label(labels_));
     }
 }
 
-TopPlansResult top_plans(const GroundProblem& problem, std::vector<Cost> costs,
-                         std::vector<std::optional<ActionLabel>> labels, const TopPlansOptions& options, Limits& limits,
-                         TopPlansStatistics& statistics) {
+TopPlansResult top_plans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionLabel>> labels,
+                         const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics) {
     TopPlansResult stopped_early;
     try {
-        return TopPlans(problem, std::move(costs), std::move(labels), options, limits, statistics).run();
+        return TopPlans(problem, std::move(prices), std::move(labels), options, limits, statistics).run();
     } catch (const Stopped& stopped) {
         stopped_early.stop = stopped.reason;
     } catch (const std::bad_alloc&) {
@@ -288,7 +288,7 @@ SearchResult TopPlans::trace(WayId goal) {
     }
     std::reverse(steps.begin(), steps.end());
     SearchResult result;
-    trace_steps(problem_, costs_, progression_, steps, result);
+    trace_steps(problem_, prices_, progression_, steps, result);
     return result;
 }
 

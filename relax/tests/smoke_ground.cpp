@@ -72,14 +72,15 @@ bool solve(std::uint32_t places) {
     if (problem == nullptr || !problem->solvable) {
         return false;
     }
-    std::vector<relax::Cost> costs;
+    relax::Prices prices;
     for (relax::ActionId action = 0; action < problem->action_count(); ++action) {
         const std::uint32_t schema = problem->action_schema[action];
-        const relax::Cost dark = problem->action_cost_parts[action].empty() ? 0 : 10;
-        costs.push_back(schema == 0 ? 1 + dark : schema == 1 ? 2 : 0);
+        const relax::Cost dark = problem->action_cost_blocks[action].empty() ? 0 : 10;
+        prices.actions.push_back(schema == 0 ? 1 + dark : schema == 1 ? 2 : 0);
     }
+    prices.parts.assign(problem->cost_part_count(), 10);
     relax::SearchStatistics statistics;
-    const auto result = relax::FindPlans(*problem, costs, {}, limits, statistics).run();
+    const auto result = relax::FindPlans(*problem, prices, {}, limits, statistics).run();
     return result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{2} + (places - 1);
 }
 

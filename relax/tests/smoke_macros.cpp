@@ -26,6 +26,7 @@ void add_action(relax::GroundProblem& problem, const Facts& needs, const Facts& 
     problem.effect_adds.add_row(adds);
     problem.effect_deletes.add_row(deletes);
     problem.effect_begin.push_back(problem.effect_begin.back() + 1);
+    problem.cost_part_begin.push_back(0);
     problem.action_schema.push_back(0);
 }
 
@@ -37,6 +38,7 @@ relax::GroundProblem make_problem() {
     relax::GroundProblem problem;
     problem.fact_predicate.assign(kInside + 1, 0);
     problem.effect_begin.push_back(0);
+    problem.cost_part_begin.push_back(0);
     for (relax::FactId from = 0; from < kPlaces; ++from) {
         for (relax::FactId to = 0; to < kPlaces; ++to) {
             add_action(problem, {from}, {to}, {from});

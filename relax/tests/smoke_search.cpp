@@ -19,6 +19,8 @@ public:
         problem.negative_preconditions.finish_row();
         if (problem.effect_begin.empty()) {
             problem.effect_begin.push_back(0);
+            problem.cost_part_begin.push_back(0);
+            problem.cost_alternative_begin.push_back(0);
         }
         problem.effect_conditions.finish_row();
         problem.effect_negative_conditions.finish_row();
@@ -27,7 +29,8 @@ public:
         problem.effect_begin.push_back(problem.effect_begin.back() + 1);
         problem.action_schema.push_back(static_cast<std::uint32_t>(problem.action_schema.size()));
         problem.action_arguments.finish_row();
-        problem.action_cost_parts.finish_row();
+        problem.action_cost_blocks.finish_row();
+        problem.cost_part_begin.push_back(0);
         return static_cast<relax::ActionId>(problem.action_schema.size() - 1);
     }
 
@@ -100,7 +103,7 @@ bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm 
     options.weight = 2.0;
     relax::Limits limits;
     relax::SearchStatistics statistics;
-    const relax::SearchResult result = relax::search(problem, {3, 5, 4}, options, limits, statistics);
+    const relax::SearchResult result = relax::search(problem, {{3, 5, 4}, {}}, options, limits, statistics);
     const bool optimal = result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{15};
     const bool is_exact = algorithm == relax::SearchAlgorithm::AStar || algorithm == relax::SearchAlgorithm::PlanBased;
     const bool solved = !is_exact && result.cost && *result.cost >= 15;
@@ -120,7 +123,7 @@ bool solve_for_several(bool ordered, relax::Distinct distinct, const std::vector
     options.distinct = distinct;
     relax::Limits limits;
     relax::TopPlansStatistics statistics;
-    relax::TopPlans search(problem, {3, 5, 4}, {0, 1, 2}, options, limits, statistics);
+    relax::TopPlans search(problem, {{3, 5, 4}, {}}, {0, 1, 2}, options, limits, statistics);
     const relax::TopPlansResult result = search.run();
     std::vector<relax::Cost> costs;
     for (const relax::SearchResult& plan : result.plans) {

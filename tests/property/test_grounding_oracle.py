@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from statehtn.core.grounding import PLAIN, Grounding, GroundingSwitches, ground
 from statehtn.model import CostDistribution, Fact, GroundAction, GroundMethod, GroundProblem, Problem
+from statehtn.model.total_cost import total_cost
 from tests.naive_grounder import Decompositions, GroundTask, NaiveGrounder, NaiveGrounding
 from tests.naive_semantics import Semantics, State
 from tests.strategies import grounding_switches, problems
@@ -55,6 +56,14 @@ def test_ground_problem_is_well_formed(problem: Problem, switches: GroundingSwit
         assert action.precondition.isdisjoint(action.negative_precondition)
         assert not action.is_artificial or action.precondition or action.negative_precondition
         read_facts |= action.precondition | action.negative_precondition
+        for part in action.cost_parts:
+            assert part.alternatives
+            for true, false in part.alternatives:
+                assert true or false
+                assert true.isdisjoint(false)
+                assert action.precondition.isdisjoint(true | false)
+                assert action.negative_precondition.isdisjoint(true | false)
+                read_facts |= true | false
         for effect in action.effects:
             assert effect.added.isdisjoint(effect.deleted)
             assert effect.added or effect.deleted
@@ -97,7 +106,7 @@ def test_cases_mean_what_the_action_says(problem: Problem, generator: random.Ran
                 law = semantics.law(name, tuple(arguments), state)
                 for case in applicable:
                     assert case.apply(before) == project(model, after), (name, arguments, state)
-                    assert same(case.cost, law), (name, arguments, state)
+                    assert same(total_cost(case.costs_in(before)), law), (name, arguments, state)
         if not successors:
             break
         state = generator.choice(successors)

@@ -157,7 +157,7 @@ def test_disjunctive_precondition_becomes_a_choice() -> None:
     assert len(named(model(domain, init="(road l1 l0)"), "cross")) == 1
 
 
-def test_state_dependent_cost_has_one_law_for_each_case() -> None:
+def test_state_dependent_cost_is_parts_of_one_action() -> None:
     domain = """
       (:task go :parameters ())
       (:method dry :parameters () :task (go) :subtasks (and (walk)))
@@ -166,9 +166,36 @@ def test_state_dependent_cost_has_one_law_for_each_case() -> None:
       (:action walk :parameters () :effect (and (increase (total-cost) 2) (when (wet l0) (increase (total-cost) 3))
         (forall (?l - place) (when (road l0 ?l) (increase (total-cost) 10)))))
     """
-    walks = named(model(domain, init="(road l0 l1)"), "walk")
-    assert {(case.precondition != frozenset(), case.cost.mean) for case in walks} == {(True, 15.0), (False, 12.0)}
-    assert all(len(case.precondition | case.negative_precondition) == 1 for case in walks)
+    found = model(domain, init="(road l0 l1)")
+    (walk,) = named(found, "walk")
+    (wet,) = [number for number, fact in enumerate(found.facts) if fact == ("wet", "l0")]
+    assert walk.cost.mean == 12
+    assert [(part.alternatives, part.cost.mean) for part in walk.cost_parts] == [
+        (((frozenset({wet}), frozenset()),), 3.0)
+    ]
+
+
+def test_conditions_of_costs_are_simplified() -> None:
+    domain = """
+      (:task go :parameters ())
+      (:method all :parameters () :task (go) :ordered-subtasks (and (rain) (walk) (dry) (walk) (soak)))
+      (:action rain :parameters () :effect (and (wet l0) (wet l1)))
+      (:action dry :parameters () :effect (not (wet l1)))
+      (:action walk :parameters () :precondition (wet l0) :effect (and (done)
+        (when (not (wet l0)) (increase (total-cost) 1))
+        (when (and (wet l0) (wet l1)) (increase (total-cost) 2))
+        (when (exists (?l - place) (wet ?l)) (increase (total-cost) 4))
+        (when (at l0) (increase (total-cost) 8))
+        (forall (?l - place) (when (or (wet l1) (road ?l ?l)) (increase (total-cost) 16)))))
+      (:action soak :parameters () :precondition (done) :effect (forall (?l - place) (increase (total-cost) 1)))
+    """
+    found = model(domain, init="(road l2 l2)")
+    (walk,), (soak,) = named(found, "walk"), named(found, "soak")
+    (wet,) = [number for number, fact in enumerate(found.facts) if fact == ("wet", "l1")]
+    assert walk.cost.mean == 4 + 16
+    assert [part.alternatives for part in walk.cost_parts] == [((frozenset({wet}), frozenset()),)]
+    assert walk.cost_parts[0].cost.mean == 2 + 2 * 16
+    assert (soak.cost.mean, soak.cost_parts) == (3, ())
 
 
 def test_conditional_and_universal_effects() -> None:
@@ -235,7 +262,7 @@ def test_many_parameters_are_joined_not_enumerated() -> None:
     ("precondition", "cost"),
     [
         ("(forall (?l - place) (or (wet ?l) (at ?l)))", ""),
-        ("(done)", "(forall (?l - place) (when (wet ?l) (increase (total-cost) 1)))"),
+        ("(done)", "(when (forall (?l - place) (or (wet ?l) (at ?l))) (increase (total-cost) 1))"),
     ],
 )
 def test_too_many_cases_are_refused_at_once(precondition: str, cost: str) -> None:

@@ -14,6 +14,7 @@
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
 #include "relax/open_list.hpp"
+#include "relax/prices.hpp"
 #include "relax/progression.hpp"
 #include "relax/search_node.hpp"
 #include "relax/search_options.hpp"
@@ -29,9 +30,9 @@ namespace relax {
 // Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
 class FindPlans {
 public:
-    // `costs`: by ActionId, at least 0. The heuristics must be admissible. `statistics` is kept up to date for whoever
+    // The heuristics must be admissible. `statistics` is kept up to date for whoever
     // watches from `limits.poll`.
-    FindPlans(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+    FindPlans(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);  // throws Stopped
 
     // Search to the end.
@@ -76,7 +77,7 @@ private:
     Cost open_bound() const;
 
     const GroundProblem& problem_;
-    std::vector<Cost> costs_;
+    Prices prices_;
     SearchOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;

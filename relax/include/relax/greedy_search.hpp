@@ -12,6 +12,7 @@
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
 #include "relax/open_list.hpp"
+#include "relax/prices.hpp"
 #include "relax/progression.hpp"
 #include "relax/search_node.hpp"
 #include "relax/search_options.hpp"
@@ -29,7 +30,7 @@ namespace relax {
 // has a plan, it goes on for as long as that took, for a cheaper one.
 class GreedySearch {
 public:
-    GreedySearch(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+    GreedySearch(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
                  SearchStatistics& statistics);
 
     SearchResult run();
@@ -43,7 +44,7 @@ private:
     void push_successors(NodeId parent, Cost h);
 
     const GroundProblem& problem_;
-    std::vector<Cost> costs_;
+    Prices prices_;
     SearchOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;

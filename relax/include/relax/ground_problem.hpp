@@ -3,11 +3,15 @@
 
 // The ground problem: flat, immutable arrays, the only thing that heuristics and search read.
 //
-// Every action has one cost law and a precondition without disjunctions. An action of the domain for which that
-// is not so stands here once for each case, and a compound task of the same schema and arguments (a "choice")
-// has one method for each of them.
+// Every action has a precondition without disjunctions. An action of the domain for which that is not so stands here
+// once for each case, and a compound task of the same schema and arguments (a "choice") has one method for each of
+// them.
+//
+// The cost of an action is the sum of independent parts: those that are always due, and its *cost parts*, each of which
+// is due, once, where a condition holds in the state before the action. Risk costs of independent parts add up.
 
 #include <cstdint>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -27,9 +31,17 @@ struct GroundProblem {
         effect_begin;  // one more entry than there are actions: effects of `a` are [begin[a], begin[a + 1])
     std::vector<std::uint32_t> action_schema;
     Rows<ObjectId> action_arguments;
-    // Which conditional parts of the cost are due: records of the part's number, the number of its variables, their
-    // objects.
-    Rows<std::uint32_t> action_cost_parts;
+    // Blocks of the cost with a condition or variables that are due wherever the action can be executed: records of the
+    // block's number, the number of its variables, their objects.
+    Rows<std::uint32_t> action_cost_blocks;
+    std::vector<CostPartId> cost_part_begin;  // one more entry, likewise
+
+    // By CostPartId. The condition is that one of its alternatives holds: [begin[p], begin[p + 1]).
+    Rows<std::uint32_t> cost_part_blocks;  // what is due then, as in `action_cost_blocks`
+    std::vector<std::uint32_t> cost_alternative_begin;
+    // By alternative of a cost part: all of these facts hold, none of those. Never empty, both of them.
+    Rows<FactId> cost_conditions;
+    Rows<FactId> cost_negative_conditions;
 
     // By EffectId. Conditions are read in the state before the action; adding wins over deleting, also across effects.
     Rows<FactId> effect_conditions;
@@ -70,6 +82,13 @@ struct GroundProblem {
     std::size_t compound_count() const { return compound_schema.size(); }
     std::size_t task_count() const { return action_count() + compound_count(); }
     std::size_t method_count() const { return method_task.size(); }
+    auto cost_parts(ActionId action) const {
+        return std::views::iota(cost_part_begin[action], cost_part_begin[action + 1]);
+    }
+    auto cost_alternatives(CostPartId part) const {
+        return std::views::iota(cost_alternative_begin[part], cost_alternative_begin[part + 1]);
+    }
+    std::size_t cost_part_count() const { return cost_part_blocks.size(); }
     bool is_primitive(TaskId task) const { return task < action_count(); }
     std::span<const MethodId> methods_of(TaskId task) const { return compound_methods[task - action_count()]; }
 };

@@ -10,6 +10,7 @@
 #include "relax/ground_problem.hpp"
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
+#include "relax/prices.hpp"
 
 namespace relax {
 
@@ -45,9 +46,9 @@ public:
     virtual bool is_preferred(MethodId /*method*/) const { return false; }
 };
 
-// `costs`: by ActionId. All kinds say dead end only where it is true. When a limit is reached, an evaluation ends early
+// All kinds say dead end only where it is true. When a limit is reached, an evaluation ends early
 // with a weaker estimate, or throws Stopped, as this function does.
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, std::span<const Cost> costs,
+std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, const Prices& prices,
                                           Limits& limits);
 
 }  // namespace relax

@@ -14,6 +14,7 @@ using ObjectId = std::uint32_t;
 using FactId = std::uint32_t;
 using ActionId = std::uint32_t;
 using EffectId = std::uint32_t;
+using CostPartId = std::uint32_t;
 using MethodId = std::uint32_t;
 // An action is the task of the same number; compound tasks follow the actions.
 using TaskId = std::uint32_t;

@@ -25,7 +25,7 @@ public:
 
     MacroActions(const GroundProblem& problem, Limits& limits);  // throws Stopped
 
-    // Whether an action can be part of one: its effects have no conditions.
+    // Whether an action can be part of one: neither its effects nor its cost have conditions.
     bool fits(ActionId action) const;
 
     // The macro-action of the action and then those of another one; nothing where they can never be executed so.

@@ -11,6 +11,7 @@
 #include "relax/linearisation.hpp"
 #include "relax/open_list.hpp"
 #include "relax/open_preconditions.hpp"
+#include "relax/prices.hpp"
 #include "relax/progression.hpp"
 #include "relax/search_options.hpp"
 #include "relax/search_result.hpp"
@@ -30,9 +31,9 @@ namespace relax {
 // with the fewest methods. `SearchOptions::branches_over_all` tries every task, as the paper writes it.
 class PlanBased {
 public:
-    // `costs`: by ActionId, at least 0. Of the options, it reads the heuristic (Tdg or Blind), the upper
+    // Of the options, it reads the heuristic (Tdg or Blind), the upper
     // bound and those that name PlanBased.
-    PlanBased(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+    PlanBased(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);
 
     SearchResult run();
@@ -58,7 +59,7 @@ private:
     void trace(SearchResult& result);
 
     const GroundProblem& problem_;
-    std::vector<Cost> costs_;
+    Prices prices_;
     SearchOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;

@@ -11,6 +11,7 @@
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
+#include "relax/prices.hpp"
 #include "relax/search_options.hpp"
 #include "relax/search_result.hpp"
 
@@ -26,7 +27,7 @@ namespace relax {
 class Portfolio {
 public:
     // As for FindPlans.
-    Portfolio(const GroundProblem& problem, std::vector<Cost> costs, const SearchOptions& options, Limits& limits,
+    Portfolio(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);
 
     SearchResult run();  // throws Stopped where nothing was begun
@@ -46,7 +47,7 @@ private:
     SearchResult gather(Member& ended);
 
     const GroundProblem& problem_;
-    std::vector<Cost> costs_;
+    Prices prices_;
     SearchOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;

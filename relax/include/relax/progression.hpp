@@ -12,6 +12,7 @@
 #include "relax/heuristic.hpp"
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
+#include "relax/prices.hpp"
 #include "relax/relevant_facts.hpp"
 #include "relax/state.hpp"
 #include "relax/stubborn_set.hpp"
@@ -52,8 +53,8 @@ class Progression {
 public:
     // All that makes states or networks may throw Stopped.
     //
-    // `costs`: by ActionId. `task_bounds`: see tdg_bound.
-    Progression(const GroundProblem& problem, std::vector<Cost> costs, std::vector<Cost> task_bounds,
+    // `task_bounds`: see tdg_bound.
+    Progression(const GroundProblem& problem, Prices prices, std::vector<Cost> task_bounds,
                 const ProgressionOptions& options, Limits& limits);
 
     StateId initial_state();
@@ -62,7 +63,7 @@ public:
     void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
     // Of the actions that cost and change nothing, execute at once only those that are named (by ActionId) from now on:
     // for searches to which the order of the others makes a difference.
-    void hurry_only(std::vector<bool> actions) { hurried_ = std::move(actions); }
+    void hurry_only(const std::vector<bool>& actions);
 
     // The same where there is at most one successor, or one is enough, and that is found with little work. False, and
     // no successors, elsewhere.
@@ -87,7 +88,9 @@ public:
 
 private:
     std::optional<Occurrence> compound_to_decompose() const;
-    bool is_in_the_way(TaskId task) const;
+    bool is_in_the_way(TaskId task) const { return problem_.is_primitive(task) && is_void_[task]; }
+    bool is_void(ActionId action) const;
+    Cost cost(ActionId action, std::span<const std::uint64_t> state) const;
     void find_live_methods(StateId state);
     void choose_actions(StateId state, NetworkId network);
     Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
@@ -95,8 +98,9 @@ private:
     Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
 
     const GroundProblem& problem_;
-    std::vector<Cost> costs_;
+    Prices prices_;
     StateTransition transition_;
+    std::vector<bool> is_void_;  // by ActionId: costs and changes nothing in any state, and comes at once
     StateRegistry states_;
     std::unique_ptr<TaskNetworks> networks_;
     Branching branching_;
@@ -104,7 +108,6 @@ private:
     std::vector<std::optional<ActionId>> first_action_;
     std::optional<StubbornSet> stubborn_set_;
     std::optional<RelevantFacts> relevant_facts_;
-    std::vector<bool> hurried_;  // by ActionId; empty for all
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
     // Of the node looked at: the task to decompose, if there is one; the methods or else the actions to try.

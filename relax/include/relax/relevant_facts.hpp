@@ -14,9 +14,9 @@
 
 namespace relax {
 
-// Which facts matter to what is left to do: those that some action reads, as a precondition of either sign or as the
-// condition of an effect, which the network's tasks can still lead to. (The goal is an action of the network, and each
-// ground action has one cost.) States that agree on them are the same to a network.
+// Which facts matter to what is left to do: those that some action reads, as a precondition of either sign or as a
+// condition of an effect or of a part of the cost, which the network's tasks can still lead to. (The goal is an action
+// of the network.) States that agree on them are the same to a network.
 class RelevantFacts {
 public:
     RelevantFacts(const GroundProblem& problem, Limits& limits);

@@ -37,6 +37,8 @@ public:
     bool is_applicable(ActionId action, std::span<const std::uint64_t> state) const;
     // Write the state after the action into `next`. What is added wins over what is deleted.
     void apply(ActionId action, std::span<const std::uint64_t> state, std::span<std::uint64_t> next) const;
+    // Whether the part of an action's cost is due in the state before the action.
+    bool is_due(CostPartId part, std::span<const std::uint64_t> state) const;
     // An action that changes nothing in any state.
     bool has_no_effect(ActionId action) const {
         return problem_.effect_begin[action] == problem_.effect_begin[action + 1];

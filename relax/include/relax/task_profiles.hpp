@@ -39,7 +39,8 @@ private:
 
 // What executing a task may have to do with the state, whichever of its decompositions is chosen.
 struct TaskProfile {
-    // What some action reads: its preconditions, and the conditions of its effects, each with its negation.
+    // What some action reads: its preconditions, and the conditions of its effects and of its cost, each with its
+    // negation.
     Literals reads;
     // What some action may make true.
     Literals makes;

@@ -15,6 +15,7 @@
 #include "relax/ids.hpp"
 #include "relax/limits.hpp"
 #include "relax/open_list.hpp"
+#include "relax/prices.hpp"
 #include "relax/progression.hpp"
 #include "relax/search_options.hpp"
 #include "relax/search_result.hpp"
@@ -67,9 +68,9 @@ struct TopPlansResult {
 // once that costs and changes nothing. Between sequences it does: there only actions without a label come at once.
 class TopPlans {
 public:
-    // `costs`: by ActionId, at least 0. `labels`: by ActionId. `statistics` is kept up to date for whoever watches from
+    // `labels`: by ActionId. `statistics` is kept up to date for whoever watches from
     // `limits.poll`. Throws Stopped.
-    TopPlans(const GroundProblem& problem, std::vector<Cost> costs, std::vector<std::optional<ActionLabel>> labels,
+    TopPlans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionLabel>> labels,
              const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
 
     TopPlansResult run();
@@ -115,7 +116,7 @@ private:
     SearchResult trace(WayId goal);
 
     const GroundProblem& problem_;
-    std::vector<Cost> costs_;
+    Prices prices_;
     std::vector<std::optional<ActionLabel>> labels_;
     TopPlansOptions options_;
     Limits& limits_;
@@ -136,9 +137,8 @@ private:
 };
 
 // Make and run it; a limit that is reached while it is being made is a result, too.
-TopPlansResult top_plans(const GroundProblem& problem, std::vector<Cost> costs,
-                         std::vector<std::optional<ActionLabel>> labels, const TopPlansOptions& options, Limits& limits,
-                         TopPlansStatistics& statistics);
+TopPlansResult top_plans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionLabel>> labels,
+                         const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
 
 }  // namespace relax
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,8 +11,18 @@ import statehtn._relax as _relax
 from statehtn.core.encode import Encoding, encode
 from statehtn.errors import UnsupportedError
 from statehtn.limits import LimitReached, Limits
-from statehtn.model import CostDistribution, CostLaw, GroundAction, GroundEffect, GroundMethod, GroundProblem, Problem
-from statehtn.model.cost_law import action_law, is_unconditional
+from statehtn.model import (
+    CostBlock,
+    CostDistribution,
+    CostLaw,
+    GroundAction,
+    GroundCostPart,
+    GroundEffect,
+    GroundMethod,
+    GroundProblem,
+    Problem,
+)
+from statehtn.model.cost_law import UNIT_COST, is_unconditional, sum_of_blocks
 from statehtn.model.costs import Arithmetic, Expression, FunctionTerm
 from statehtn.model.problem import Action
 from statehtn.model.status import Status
@@ -51,7 +62,8 @@ class Grounding:
         problem: the lifted problem.
         encoding: what the core's numbers mean.
         handle: the ground problem in the core.
-        laws: the cost distribution of each ground action; equal ones are mostly the same object.
+        laws: what is always due of the cost of each ground action; equal ones are mostly the same object.
+        part_laws: what else is due under a condition, by cost part. All parts of a cost are independent.
         switches: which refinements were on.
     """
 
@@ -59,6 +71,7 @@ class Grounding:
     encoding: Encoding
     handle: _relax.GroundProblem
     laws: tuple[CostLaw, ...]
+    part_laws: tuple[CostLaw, ...]
     switches: GroundingSwitches
 
     @property
@@ -68,7 +81,7 @@ class Grounding:
 
     @property
     def action_count(self) -> int:
-        """The number of ground actions of the domain, each counted once for every case of its precondition or cost."""
+        """The number of ground actions of the domain, each counted once for every case of its precondition."""
         return sum(self.encoding.actions[schema] is not None for schema in self.handle.action_schema)
 
     @property
@@ -118,6 +131,11 @@ class Grounding:
         names = (self.task_name(self.handle.action_schema[action]), *self.objects(self.handle.action_arguments(action)))
         return f"({' '.join(names)})"
 
+    def cost_part_text(self, part: int) -> str:
+        """Return the ground action that a cost part belongs to, as it stands in a plan."""
+        actions = range(self.handle.action_count)
+        return self.action_text(bisect_right(actions, part, key=lambda action: self.handle.cost_parts(action)[0]) - 1)
+
     def _action(self, action: int, schema: int) -> GroundAction:
         handle = self.handle
         return GroundAction(
@@ -136,7 +154,18 @@ class Grounding:
             ),
             self.laws[action],
             self.encoding.actions[schema] is None,
+            tuple(map(self._cost_part, range(*handle.cost_parts(action)))),
         )
+
+    def _cost_part(self, part: int) -> GroundCostPart:
+        alternatives = (
+            (
+                frozenset(self.handle.cost_conditions(alternative)),
+                frozenset(self.handle.cost_negative_conditions(alternative)),
+            )
+            for alternative in range(*self.handle.cost_alternatives(part))
+        )
+        return GroundCostPart(tuple(alternatives), self.part_laws[part])
 
     def _method(self, method: int) -> GroundMethod:
         handle = self.handle
@@ -181,48 +210,78 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         raise UnsupportedError(
             f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?"
         )
-    return Grounding(problem, encoding, handle, tuple(_laws(encoding, handle, limits)), switches)
+    laws, part_laws = _CostLaws(encoding, handle, limits).all()
+    return Grounding(problem, encoding, handle, laws, part_laws, switches)
 
 
-def _laws(encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> list[CostLaw]:
-    """Return the cost law of every ground action, the same object wherever it cannot depend on the arguments."""
-    free = CostDistribution.certain(0.0)
-    unit_costs = encoding.problem.domain.has_unit_costs
-    values = encoding.problem.function_values
-    shared: dict[int, CostLaw] = {}
-    laws: list[CostLaw] = []
-    for number, schema in enumerate(handle.action_schema):
-        if number % 1024 == 0:
-            limits.check()
-        action = encoding.actions[schema]
-        if action is None:
-            laws.append(free)
-        elif schema in shared:
-            laws.append(shared[schema])
-        else:
+Blocks = list[tuple[int, tuple[str, ...]]]
+"""Blocks of a cost: (index in `Action.costs`, objects of its variables)."""
+
+
+class _CostLaws:
+    """The cost laws of ground actions; equal ones are mostly the same object."""
+
+    def __init__(self, encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> None:
+        self.encoding = encoding
+        self.handle = handle
+        self.limits = limits
+        self.values = encoding.problem.function_values
+        self.unit_costs = encoding.problem.domain.has_unit_costs
+        self.shared: dict[tuple[int, tuple[int, ...]], CostLaw] = {}
+        self.always: dict[int, Blocks] = {}  # by schema: those without condition and variables
+
+    def all(self) -> tuple[tuple[CostLaw, ...], tuple[CostLaw, ...]]:
+        """Return the law of what is always due of every action's cost, and that of every conditional part."""
+        free = CostDistribution.certain(0.0)
+        laws: list[CostLaw] = []
+        part_laws: list[CostLaw] = []
+        for number, schema in enumerate(self.handle.action_schema):
+            if number % 1024 == 0:
+                self.limits.check()
+            action = self.encoding.actions[schema]
+            if action is None:
+                laws.append(free)
+                continue
             if any(block.external for block in action.costs):
-                limits.check()  # a callable may take its time
-            arguments = tuple(encoding.objects[object_] for object_ in handle.action_arguments(number))
-            parts = _active_parts(encoding, handle.action_cost_parts(number))
-            laws.append(action_law(action, arguments, parts, values, unit_costs))
-            if unit_costs or _is_the_same_for_all(action):
-                shared[schema] = laws[-1]
-    return laws
+                self.limits.check()  # a callable may take its time
+            laws.append(self.base_law(number, schema, action))
+            for part in range(*self.handle.cost_parts(number)):
+                blocks = self.read_blocks(self.handle.cost_part_blocks(part))
+                part_laws.append(self.law(number, schema, action, blocks))
+        return tuple(laws), tuple(part_laws)
+
+    def base_law(self, number: int, schema: int, action: Action) -> CostLaw:
+        if self.unit_costs:
+            return UNIT_COST
+        if schema not in self.always:
+            self.always[schema] = [(index, ()) for index, block in enumerate(action.costs) if is_unconditional(block)]
+        blocks = self.read_blocks(self.handle.action_cost_blocks(number))
+        return self.law(number, schema, action, self.always[schema] + blocks)
+
+    def law(self, number: int, schema: int, action: Action, blocks: Blocks) -> CostLaw:
+        key = (schema, tuple(index for index, _ in blocks))
+        law = self.shared.get(key)
+        if law is None:
+            law = sum_of_blocks(action, self.objects(self.handle.action_arguments(number)), blocks, self.values)
+            if all(_is_the_same_for_all(action.costs[index]) for index, _ in blocks):
+                self.shared[key] = law
+        return law
+
+    def read_blocks(self, record: list[int]) -> Blocks:
+        blocks = []
+        at = 0
+        while at < len(record):
+            index, count = record[at : at + 2]
+            blocks.append((index, self.objects(record[at + 2 : at + 2 + count])))
+            at += 2 + count
+        return blocks
+
+    def objects(self, numbers: list[int]) -> tuple[str, ...]:
+        return tuple(self.encoding.objects[number] for number in numbers)
 
 
-def _active_parts(encoding: Encoding, record: list[int]) -> list[tuple[int, tuple[str, ...]]]:
-    """Read which conditional parts of a cost are due: (block, objects of its variables)."""
-    parts = []
-    at = 0
-    while at < len(record):
-        block, count = record[at : at + 2]
-        parts.append((block, tuple(encoding.objects[number] for number in record[at + 2 : at + 2 + count])))
-        at += 2 + count
-    return parts
-
-
-def _is_the_same_for_all(action: Action) -> bool:
-    """Tell whether an action costs the same for all arguments in all states."""
+def _is_the_same_for_all(block: CostBlock) -> bool:
+    """Tell whether a block has the same law for all arguments and objects."""
 
     def is_constant(expression: Expression) -> bool:
         match expression:
@@ -232,9 +291,4 @@ def _is_the_same_for_all(action: Action) -> bool:
                 return all(map(is_constant, operands))
         return True
 
-    return all(
-        is_unconditional(block)
-        and block.external is None
-        and all(is_constant(expression) for branch in block.branches for expression in branch)
-        for block in action.costs
-    )
+    return block.external is None and all(is_constant(expression) for branch in block.branches for expression in branch)

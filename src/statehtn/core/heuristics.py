@@ -113,7 +113,7 @@ class HeuristicEvaluator:
     """A heuristic on its own, for states and networks of the caller's choice."""
 
     def __init__(self, grounding: Grounding, utility: Utility, heuristic: str) -> None:
-        self._prices = price(grounding.laws, utility, grounding.action_text)
+        self._prices = price(grounding, utility)
         self._evaluator = _relax.Evaluator(grounding.handle, self._prices.units, HEURISTICS[heuristic].kind)
 
     @property

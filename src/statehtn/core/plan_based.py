@@ -50,6 +50,6 @@ def search_plans(
     options.heuristic = HEURISTICS[heuristic].kind
     options.branches_over_all = branch == "all"
     options.checks_preconditions = checks_preconditions
-    run = StagedRun(grounding, price(grounding.laws, utility, grounding.action_text), limits, progress)
+    run = StagedRun(grounding, price(grounding, utility), limits, progress)
     run.stage(options)
     return run.outcome()

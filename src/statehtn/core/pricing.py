@@ -1,4 +1,4 @@
-"""Fixed-point prices: what every ground action costs this agent, in whole units."""
+"""Fixed-point prices: what every ground action, and every part of its cost, costs this agent, in whole units."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+import statehtn._relax as _relax
+from statehtn.core.grounding import Grounding
 from statehtn.errors import InputError
 from statehtn.model import CostLaw
 from statehtn.risk import Utility
@@ -15,14 +17,14 @@ COST_BITS = 40
 
 @dataclass(frozen=True, slots=True)
 class Prices:
-    """Risk costs by action, rounded down to whole units.
+    """Risk costs of actions and of the conditional parts of their costs, rounded down to whole units.
 
     The unit is a power of two, such that the largest cost takes about 40 bits: sums are exact, and a sum of rounded
-    costs is at most the exact one, by less than a unit for each action. `units * 2**-exponent` is a cost in the
-    domain's own unit.
+    costs is at most the exact one, by less than a unit for each action and each part that is due.
+    `units * 2**-exponent` is a cost in the domain's own unit.
     """
 
-    units: list[int]
+    units: _relax.Prices
     exponent: int
 
     def cost(self, units: int) -> float:
@@ -30,27 +32,34 @@ class Prices:
         return math.ldexp(units, -self.exponent)
 
 
-def price(laws: Iterable[CostLaw], utility: Utility, name_of: Callable[[int], str] = str) -> Prices:
+def price(grounding: Grounding, utility: Utility) -> Prices:
     """Price actions by their risk cost (line 6 of the paper's Algorithm 5, in the additive form of its equation 10).
 
-    Args:
-        laws: the cost distribution of each action; equal objects are priced once.
-        utility: the agent's.
-        name_of: the name of each action, for messages.
+    Parts of a cost are independent, so that their risk costs add up, too: each has a price of its own.
 
     Raises:
         InputError: a cost has no finite price for this agent; the message names the action.
     """
     known: dict[int, float] = {}
-    risk_costs: list[float] = []
-    for law in laws:
-        cost = known.get(id(law))
-        if cost is None:
-            try:
-                cost = known[id(law)] = utility.risk_cost(law)
-            except InputError as error:
-                raise InputError(f"the cost of {name_of(len(risk_costs))}: {error.message}") from None
-        risk_costs.append(cost)
-    largest = max(risk_costs, default=0.0)
+
+    def risk_costs(laws: Iterable[CostLaw], name_of: Callable[[int], str]) -> list[float]:
+        found: list[float] = []
+        for law in laws:
+            cost = known.get(id(law))
+            if cost is None:
+                try:
+                    cost = known[id(law)] = utility.risk_cost(law)
+                except InputError as error:
+                    raise InputError(f"the cost of {name_of(len(found))}: {error.message}") from None
+            found.append(cost)
+        return found
+
+    actions = risk_costs(grounding.laws, grounding.action_text)
+    parts = risk_costs(grounding.part_laws, grounding.cost_part_text)
+    largest = max((*actions, *parts), default=0.0)
     exponent = COST_BITS - math.frexp(largest)[1] if largest > 0 else 0
-    return Prices([math.floor(math.ldexp(cost, exponent)) for cost in risk_costs], exponent)
+
+    def units(costs: list[float]) -> list[int]:
+        return [math.floor(math.ldexp(cost, exponent)) for cost in costs]
+
+    return Prices(_relax.Prices(units(actions), units(parts)), exponent)

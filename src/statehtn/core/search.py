@@ -81,7 +81,7 @@ def improving_plans(
 
     All but the last have the status `SOLVED`. Only `anytime` has several stages that find plans.
     """
-    run = StagedRun(grounding, price(grounding.laws, utility, grounding.action_text), limits, progress)
+    run = StagedRun(grounding, price(grounding, utility), limits, progress)
     size = max(1, grounding.handle.action_count + grounding.handle.method_count)
     for stage in SEARCHES[search]:
         if stage.algorithm is _relax.SearchAlgorithm.Greedy and run.best is not None:

@@ -115,7 +115,7 @@ def find_top_plans(
         limits_ways: keep at most k ways to every pair of a state and a network.
     """
     started = time.monotonic()
-    prices = price(grounding.laws, utility)
+    prices = price(grounding, utility)
     options = _relax.TopPlansOptions()
     options.count = k
     options.distinct = DISTINCT[distinct]

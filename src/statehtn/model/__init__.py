@@ -4,7 +4,7 @@ from statehtn.model.cost_distribution import CostDistribution
 from statehtn.model.cost_sum import CostSum
 from statehtn.model.costs import Arithmetic, CostBlock, Expression, FunctionTerm, Number
 from statehtn.model.formula import TRUE, And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or
-from statehtn.model.ground import GroundAction, GroundEffect, GroundMethod, GroundProblem
+from statehtn.model.ground import GroundAction, GroundCostPart, GroundEffect, GroundMethod, GroundProblem
 from statehtn.model.law import CostLaw
 from statehtn.model.plan import Decomposition, Plan, Step
 from statehtn.model.problem import Action, Domain, Effect, Fact, Method, Problem, Signature, Subtask, TaskNetwork
@@ -31,6 +31,7 @@ __all__ = [
     "Formula",
     "FunctionTerm",
     "GroundAction",
+    "GroundCostPart",
     "GroundEffect",
     "GroundMethod",
     "GroundProblem",

@@ -19,6 +19,8 @@ from statehtn.model.formula import TRUE
 from statehtn.model.law import CostLaw, is_of_scipy
 from statehtn.model.problem import Action
 
+UNIT_COST = CostDistribution.certain(1.0)
+"""What every action costs where the domain states no costs at all."""
 LARGEST_SHOWN = 10**300  # a float can hold it
 
 ExactLaw = dict[Fraction, Fraction]
@@ -100,13 +102,34 @@ def action_law(
         InputError: as `block_law`.
     """
     if unit_costs:
-        return CostDistribution.certain(1.0)
-    due: list[tuple[CostBlock, tuple[str, ...]]] = [(block, ()) for block in action.costs if is_unconditional(block)]
-    due += [(action.costs[index], objects) for index, objects in active_parts]
+        return UNIT_COST
+    always: list[tuple[int, tuple[str, ...]]] = [
+        (index, ()) for index, block in enumerate(action.costs) if is_unconditional(block)
+    ]
+    return sum_of_blocks(action, arguments, [*always, *active_parts], values)
+
+
+def sum_of_blocks(
+    action: Action,
+    arguments: tuple[str, ...],
+    blocks: Iterable[tuple[int, tuple[str, ...]]],
+    values: FunctionValues,
+) -> CostLaw:
+    """Return the law of the sum of some of a ground action's independent cost blocks.
+
+    Args:
+        action: the lifted action.
+        arguments: one object for each parameter.
+        blocks: which, as (index in `action.costs`, objects for that block's parameters).
+        values: the function values of `:init`.
+
+    Raises:
+        InputError: as `block_law`.
+    """
     law: ExactLaw = {Fraction(0): Fraction(1)}
     others: list[CostLaw] = []
-    for block, objects in due:
-        part = _block(block, action, arguments, objects, values)
+    for index, objects in blocks:
+        part = _block(action.costs[index], action, arguments, objects, values)
         if isinstance(part, CostLaw):
             others.append(part)
         else:

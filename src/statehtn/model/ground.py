@@ -24,11 +24,26 @@ class GroundEffect:
 
 
 @dataclass(frozen=True, slots=True)
+class GroundCostPart:
+    """A part of an action's cost that is due, once, if one of the alternatives holds in the state before the action.
+
+    An alternative is facts that hold and facts that do not. Parts of an action's cost are independent.
+    """
+
+    alternatives: tuple[tuple[frozenset[int], frozenset[int]], ...]
+    cost: CostLaw
+
+    def is_due(self, state: frozenset[int]) -> bool:
+        """Tell whether the part is due in a state."""
+        return any(true <= state and false.isdisjoint(state) for true, false in self.alternatives)
+
+
+@dataclass(frozen=True, slots=True)
 class GroundAction:
     """A ground action. Artificial ones (method preconditions, the goal) have `is_artificial` set and cost 0.
 
-    An action whose precondition is a disjunction or whose cost depends on the state stands here several times, once
-    for each case; a compound task of the same name then chooses between them.
+    `cost` is what is due in every state; `cost_parts` come on top of it. An action whose precondition is a disjunction
+    stands here several times, once for each case; a compound task of the same name then chooses between them.
     """
 
     name: str
@@ -38,6 +53,7 @@ class GroundAction:
     effects: tuple[GroundEffect, ...]
     cost: CostLaw
     is_artificial: bool = False
+    cost_parts: tuple[GroundCostPart, ...] = ()
 
     def is_applicable(self, state: frozenset[int]) -> bool:
         """Tell whether the action can be executed in a state."""
@@ -52,6 +68,10 @@ class GroundAction:
                 added |= effect.added
                 deleted |= effect.deleted
         return (state - deleted) | added
+
+    def costs_in(self, state: frozenset[int]) -> tuple[CostLaw, ...]:
+        """Return the laws of the independent parts of the cost in a state before the action."""
+        return (self.cost, *(part.cost for part in self.cost_parts if part.is_due(state)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -142,7 +142,7 @@ def apply(node: SearchNode, identifier: int, problem: GroundProblem, utility: Ut
         node.network.without(identifier),
         (*node.plan, Execution(identifier, task)),
         node.choices,
-        node.cost + utility.risk_cost(action.cost),
+        node.cost + sum(map(utility.risk_cost, action.costs_in(node.state))),
         node.next_identifier,
     )
 
