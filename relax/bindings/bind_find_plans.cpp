@@ -146,7 +146,7 @@ void bind_find_plans(nb::module_& module) {
 
     nb::class_<relax::SearchResult>(module, "SearchResult")
         .def_ro("status", &relax::SearchResult::status)
-        .def_ro("is_stopped", &relax::SearchResult::is_stopped)
+        .def_ro("stop", &relax::SearchResult::stop)
         .def_ro("statistics", &relax::SearchResult::statistics)
         .def_ro("cost", &relax::SearchResult::cost)
         .def_ro("decomposition", &relax::SearchResult::decomposition)

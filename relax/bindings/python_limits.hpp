@@ -35,8 +35,15 @@ inline relax::Limits python_limits(std::optional<double> seconds, std::optional<
             PyErr_Clear();
             return true;
         }
-        if (watch) {
-            watch();
+        try {
+            if (watch) {
+                watch();
+            }
+        } catch (const nb::python_error& error) {  // Ctrl-C while the callback runs is one, too
+            if (!error.matches(PyExc_KeyboardInterrupt)) {
+                throw;
+            }
+            return true;
         }
         return false;
     };

@@ -97,7 +97,7 @@ SearchResult FindPlans::result() {
     }
     const Limits::Suspension suspension(limits_);
     const Cost bound = proven();
-    result.is_stopped = stop_.has_value();
+    result.stop = stop_;
     if (goal_) {
         trace_plan(problem_, prices_, progression_, nodes_, *goal_, result);
     }

@@ -48,7 +48,7 @@ SearchResult GreedySearch::run() {
     const Limits::Suspension suspension(limits_);
     // All that is proven is what the root's bound says.
     Cost proven = progression_.networks().bound(progression_.initial_network());
-    result.is_stopped = stop.has_value();
+    result.stop = stop;
     if (goal_) {
         trace_plan(problem_, prices_, progression_, nodes_, *goal_, result);
         statistics_.best = result.cost;

@@ -65,7 +65,7 @@ SearchResult PlanBased::run() {
         stop = StopReason::MemoryLimit;
     }
     const Limits::Suspension suspension(limits_);
-    result.is_stopped = stop.has_value();
+    result.stop = stop;
     if (solution_) {
         trace(result);
         statistics_.best = result.cost;

@@ -115,7 +115,7 @@ SearchResult Portfolio::gather(Member& ended) {
     SearchResult result = last.search->result();
     Cost bound =
         result.statistics.lower_bound.value_or(result.status == SearchStatus::Unsolvable ? kNoDecomposition : 0);
-    const bool is_stopped = result.is_stopped || stop_;
+    const std::optional<StopReason> stop = result.stop ? result.stop : stop_;
     for (Member& member : members_) {
         if (!member.search || &member == &last) {
             continue;
@@ -126,7 +126,7 @@ SearchResult Portfolio::gather(Member& ended) {
         }
     }
     add_up();
-    result.is_stopped = is_stopped;
+    result.stop = stop;
     statistics_.best = result.cost;
     if (result.cost) {
         statistics_.lower_bound = std::min(bound, *result.cost);

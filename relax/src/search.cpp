@@ -30,7 +30,7 @@ SearchResult search_or_throw(const GroundProblem& problem, Prices prices, const 
 SearchResult stopped_early(StopReason reason, const SearchStatistics& statistics) {
     SearchResult result;
     result.status = status_of(reason);
-    result.is_stopped = true;
+    result.stop = reason;
     result.statistics = statistics;
     return result;
 }

@@ -11,6 +11,7 @@ from typing import Any
 from statehtn.display.comparison import ComparedPlan, Reason, comparison_html, comparison_text
 from statehtn.errors import UsageError
 from statehtn.expected import items, number, one_of, whole_number
+from statehtn.interrupt import OnInterrupt, check_interrupt, returned
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
@@ -65,6 +66,11 @@ class AttitudeComparison:
             result.attitude if result.alpha is None else f"{result.attitude} {result.alpha:g}"
             for result in self.results
         )
+
+    @property
+    def stopped(self) -> Status | None:
+        """What ended the last agent's run before it was done: after an interruption agents are missing."""
+        return self.results[-1].stopped
 
     @property
     def risk_costs(self) -> tuple[tuple[float | None, ...], ...]:
@@ -198,6 +204,7 @@ def compare_attitudes(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
+    interrupt: OnInterrupt = "return",
 ) -> AttitudeComparison:
     """Plan for agents of several attitudes, and compare what they do.
 
@@ -208,6 +215,8 @@ def compare_attitudes(
         solver: as for `plan`, for each agent; so are `heuristic`, `search` and `progress`.
         time_limit: seconds for each agent.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
+        interrupt: what a Ctrl-C does: `return` what is known by then, or `raise` a `KeyboardInterrupt` with that as its
+            argument, which ends a loop of plans, too.
 
     An agent without a plan has a result that says why. After an interruption no further agent is asked.
 
@@ -216,6 +225,7 @@ def compare_attitudes(
         InputError, UnsupportedError: as `plan`.
     """
     expect_problem(problem)
+    check_interrupt(interrupt)
     given = items(alpha, "alpha") if isinstance(alpha, Iterable) else [alpha]
     alphas = sorted({number(value, "alpha") for value in given})
     names = [attitudes] if isinstance(attitudes, str) else items(attitudes, "'attitudes'")
@@ -244,9 +254,9 @@ def compare_attitudes(
                 progress=progress,
             )
         )
-        if results[-1].status is Status.INTERRUPTED:
+        if results[-1].stopped is Status.INTERRUPTED:
             break
-    return AttitudeComparison(tuple(results))
+    return returned(AttitudeComparison(tuple(results)), interrupt)
 
 
 def _names(steps: Iterable[PricedStep]) -> list[str]:

@@ -24,6 +24,10 @@ ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)
 """Exceptions that end a phase before it has anything to show."""
 
 
+STOPS = (Status.TIME_LIMIT, Status.MEMORY_LIMIT, Status.INTERRUPTED)
+"""The statuses of runs that something ended before they were done."""
+
+
 def status_of(ending: BaseException) -> Status:
     """Return the status of a run that one of `ENDINGS` ended."""
     match ending:

@@ -16,7 +16,9 @@ from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.expected import function
 from statehtn.found_plan import SECONDS_TO_VALIDATE, validated_and_priced
 from statehtn.hddl import read_hddl
-from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.interrupt import OnInterrupt, check_interrupt, returned
+from statehtn.limits import ENDINGS, STOPS, Limits, status_of
+from statehtn.log import log
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
@@ -40,10 +42,11 @@ def plan(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
+    interrupt: OnInterrupt = "return",
 ) -> Result:
     """Find the plan with the maximum expected utility, and prove that it is.
 
-    No plan, a limit that was reached and a Ctrl-C are values of the result's `status`, not exceptions.
+    No plan, a limit that was reached and a Ctrl-C are values of the result's `status` and `stopped`, not exceptions.
 
     Args:
         problem: a problem, such as `read_hddl` returns.
@@ -61,6 +64,8 @@ def plan(
         time_limit: seconds, for grounding and search together.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
         progress: is called some ten times a second during the search.
+        interrupt: what a Ctrl-C does: `return` what is known by then, or `raise` a `KeyboardInterrupt` with that as its
+            argument, which ends a loop of plans, too.
 
     Raises:
         UsageError: an argument is out of its range.
@@ -71,8 +76,9 @@ def plan(
     expect_problem(problem)
     query = Query.of(attitude, alpha, solver, heuristic, search, weight, branch)
     function(progress, "progress")
+    check_interrupt(interrupt)
     limits = Limits.starting_now(time_limit, memory_limit)
-    return _solve(problem, query, limits, progress, Statistics())
+    return returned(_solve(problem, query, limits, progress, Statistics()), interrupt)
 
 
 def improving(
@@ -84,18 +90,26 @@ def improving(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: ProgressCallback | None = None,
+    interrupt: OnInterrupt = "return",
 ) -> Iterator[Result]:
     """Search as `plan` does with `search="anytime"`, and yield each better plan as soon as it is found.
 
     A robot takes the best plan so far when it has to go; the last result is what `plan` returns. `problem`, `attitude`,
-    `alpha`, `heuristic`, `time_limit`, `memory_limit` and `progress` are those of `plan`, and so are the errors; they
-    are raised at once. The time that the caller takes between two results counts, too.
+    `alpha`, `heuristic`, `time_limit`, `memory_limit`, `progress` and `interrupt` are those of `plan`, and so are the
+    errors; wrong arguments are told at once. The time that the caller takes between two results counts, too.
     """
     expect_problem(problem)
     query = Query.of(attitude, alpha, heuristic=heuristic, search="anytime")
     function(progress, "progress")
+    check_interrupt(interrupt)
     limits = Limits.starting_now(time_limit, memory_limit)
-    return _solutions(problem, query, limits, progress, Statistics(), every_plan=True)
+    return _improving(_solutions(problem, query, limits, progress, Statistics(), every_plan=True), interrupt)
+
+
+def _improving(results: Iterator[Result], interrupt: OnInterrupt) -> Iterator[Result]:
+    for result in results:
+        yield result
+    returned(result, interrupt)
 
 
 def plan_files(
@@ -132,6 +146,7 @@ def no_plan(query: Query, status: Status, statistics: Statistics, bound: float |
     """Return the result of a run that found no plan."""
     return Result(
         status=status,
+        stopped=status if status in STOPS else None,
         problem_class=str(problem_class(query.solver, query.utility)),
         utility=query.utility,
         solver=query.solver,
@@ -159,7 +174,9 @@ def measured_read(
             read = read_costs(costs).apply(read)
     except ENDINGS as ending:
         read = status_of(ending)
-    return read, Statistics(parse_seconds=time.perf_counter() - start)
+    seconds = time.perf_counter() - start
+    log.info("reading '%s' and '%s': %.3f s, %s", domain, problem, seconds, read)
+    return read, Statistics(parse_seconds=seconds)
 
 
 def measured_ground(problem: Problem, limits: Limits, statistics: Statistics) -> tuple[Grounding | Status, Statistics]:
@@ -168,8 +185,9 @@ def measured_ground(problem: Problem, limits: Limits, statistics: Statistics) ->
     try:
         grounding = ground(problem, limits)
     except ENDINGS as ending:
+        log.info("grounding: %s after %.3f s", status_of(ending), time.perf_counter() - start)
         return status_of(ending), replace(statistics, ground_seconds=time.perf_counter() - start)
-    return grounding, replace(
+    counted = replace(
         statistics,
         facts=grounding.fact_count,
         actions=grounding.action_count,
@@ -177,6 +195,11 @@ def measured_ground(problem: Problem, limits: Limits, statistics: Statistics) ->
         methods=grounding.method_count,
         ground_seconds=time.perf_counter() - start,
     )
+    log.info(
+        "grounding: %.3f s, %d facts, %d actions, %d tasks, %d methods",
+        *(counted.ground_seconds, counted.facts, counted.actions, counted.tasks, counted.methods),
+    )
+    return grounding, counted
 
 
 def _solve(
@@ -194,7 +217,32 @@ def _solutions(
     statistics: Statistics,
     every_plan: bool,
 ) -> Iterator[Result]:
-    """Ground and search; validate and yield plans, each better than those before, and last how the run ended."""
+    """Ground and search; validate and yield plans, each better than those before, and last how the run ended.
+
+    An interruption between two phases, which none of them sees, ends the run as one within them does.
+    """
+    latest = no_plan(query, Status.INTERRUPTED, statistics)
+    found = _uninterrupted(problem, query, limits, progress, statistics, every_plan)
+    try:
+        for latest in found:
+            yield latest
+    except KeyboardInterrupt:
+        yield _stopped(latest, Status.INTERRUPTED)
+
+
+def _stopped(result: Result, by: Status) -> Result:
+    """Return the best result so far as that of a run that something has ended."""
+    return replace(result, status=by if result.plan is None else Status.SOLVED, stopped=by)
+
+
+def _uninterrupted(
+    problem: Problem,
+    query: Query,
+    limits: Limits,
+    progress: ProgressCallback | None,
+    statistics: Statistics,
+    every_plan: bool,
+) -> Iterator[Result]:
     grounding, statistics = measured_ground(problem, limits, statistics)
     if isinstance(grounding, Status):
         yield no_plan(query, grounding, statistics)
@@ -208,7 +256,7 @@ def _solutions(
             outcome = next(outcomes, None)
         except ENDINGS as ending:
             spent = replace(statistics, search_seconds=time.perf_counter() - start - validating)
-            yield no_plan(query, status_of(ending), spent) if latest is None else latest
+            yield _stopped(latest or no_plan(query, status_of(ending), spent), status_of(ending))
             return
         if outcome is None:
             return
@@ -227,11 +275,27 @@ def _solutions(
             found = validated_and_priced(problem, outcome.plan, query.utility, left)
             validating += time.perf_counter() - begin
             spent = replace(spent, validate_seconds=validating)
-        latest = no_plan(query, outcome.status, spent, outcome.lower_bound)
+        latest = replace(no_plan(query, outcome.status, spent, outcome.lower_bound), stopped=outcome.stopped)
         if found is not None:
             status = latest.status if found.validated else Status.SOLVED
-            latest = replace(latest, status=status, plan=found.plan, steps=found.steps, validated=found.validated)
+            latest = replace(
+                latest,
+                status=status,
+                plan=found.plan,
+                steps=found.steps,
+                validated=found.validated,
+                stopped=outcome.stopped or found.stopped,
+            )
+        _tell(latest)
         yield latest
+
+
+def _tell(result: Result) -> None:
+    """Log how far a search has come."""
+    plan = "no plan" if result.plan is None else f"a plan of {result.length} steps for {result.risk_cost:.10g}"
+    bound = "no bound" if result.lower_bound is None else f"bound {result.lower_bound:.10g}"
+    seconds = result.statistics.search_seconds or 0.0
+    log.info("search: %s, %s, %s after %.3f s", result.status, plan, bound, seconds)
 
 
 def _search(

@@ -64,6 +64,8 @@ class Result:
             or an interruption may come first: then the status is `solved`, and the prices are those of the search.
         bound: a lower bound on the risk cost of every plan of the problem, in the domain's unit.
         statistics: the effort.
+        stopped: what ended the run before it was done, with or without a plan: a limit or an interruption; None for
+            nothing.
     """
 
     status: Status
@@ -76,6 +78,7 @@ class Result:
     validated: bool = False
     bound: float | None = None
     statistics: Statistics = field(default_factory=Statistics)
+    stopped: Status | None = None
 
     def __bool__(self) -> bool:
         """Tell whether there is a plan."""
@@ -140,6 +143,7 @@ class Result:
             "log10_expected_utility": self.log10_expected_utility,
             "lower_bound": self.lower_bound,
             "validated": None if self.plan is None else self.validated,
+            "stopped": None if self.stopped is None else self.stopped.value,
             "statistics": asdict(self.statistics),
         }
 

@@ -15,7 +15,9 @@ from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import UsageError
 from statehtn.expected import function, one_of, whole_number
 from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, validated_and_priced
+from statehtn.interrupt import OnInterrupt, check_interrupt, returned
 from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.log import log
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
@@ -75,6 +77,7 @@ def top_plans(
     time_limit: float | None = None,
     memory_limit: float | None = None,
     progress: TopProgressCallback | None = None,
+    interrupt: OnInterrupt = "return",
 ) -> TopPlans:
     """Find the k plans with the highest expected utility, and prove that they are.
 
@@ -94,6 +97,8 @@ def top_plans(
             are not two seconds after the limit, or after an interruption, are left out.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
         progress: is called some ten times a second during the search.
+        interrupt: what a Ctrl-C does: `return` what is known by then, or `raise` a `KeyboardInterrupt` with that as its
+            argument, which ends a loop of plans, too.
 
     Raises:
         UsageError: an argument is out of its range.
@@ -103,8 +108,9 @@ def top_plans(
     expect_problem(problem)
     query = TopQuery.of(k, attitude, alpha, distinct, heuristic)
     function(progress, "progress")
+    check_interrupt(interrupt)
     limits = Limits.starting_now(time_limit, memory_limit)
-    return _solve(problem, query, limits, progress, Statistics())
+    return returned(_solve(problem, query, limits, progress, Statistics()), interrupt)
 
 
 def top_plans_files(
@@ -172,6 +178,7 @@ def _solve(
         dead_ends=outcome.dead_ends,
         search_seconds=time.perf_counter() - start,
     )
+    log.info("search: %d plans, %d proven, %.3f s", len(outcome.plans), outcome.proven, statistics.search_seconds)
     begin = time.perf_counter()
     found, stopped = _validated(problem, query.utility, outcome, limits)
     plans = tuple(_ranked(found, outcome.proven, query.utility))

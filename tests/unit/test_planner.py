@@ -46,6 +46,7 @@ KEYS = [
     "log10_expected_utility",
     "lower_bound",
     "validated",
+    "stopped",
     "statistics",
 ]
 UNSOLVABLE = PROBLEM.replace("(away)", "(home)")

@@ -46,7 +46,7 @@ struct DecompositionNode {
 
 struct SearchResult {
     SearchStatus status = SearchStatus::Unsolvable;
-    bool is_stopped = false;  // by a limit or the user, with or without a plan
+    std::optional<StopReason> stop;  // what ended the search before it was done, with or without a plan
     SearchStatistics statistics;
     // If a plan was found: its cost, the tree, and the leaves in the order of their execution.
     std::optional<Cost> cost;

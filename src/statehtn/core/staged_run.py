@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import statehtn._relax as _relax
-from statehtn.core.grounding import Grounding
+from statehtn.core.grounding import STOPPED, Grounding
 from statehtn.core.pricing import Prices
 from statehtn.core.progress import Progress
 from statehtn.core.trace import TraceReader
@@ -39,6 +39,8 @@ class SearchOutcome:
     dead_ends: int
     cuts: int
     """Landmark cuts of all evaluations together."""
+    stopped: Status | None
+    """What ended the search before it was done, with or without a plan; None for nothing."""
 
 
 class StagedRun:
@@ -56,6 +58,7 @@ class StagedRun:
         self.best: _relax.SearchResult | None = None
         self.status = Status.UNSOLVABLE
         self.lower_bound: int | None = None
+        self.stopped: Status | None = None
         self.done: list[_relax.SearchStatistics] = []
 
     def stage(self, options: _relax.SearchOptions) -> bool:
@@ -72,6 +75,7 @@ class StagedRun:
         )
         self.done.append(result.statistics)
         self.lower_bound = self.bound_with(result.statistics)
+        self.stopped = None if result.stop is None else STOPPED[result.stop]
         self.status = _STATUSES[result.status]
         if self.status is Status.UNSOLVABLE and self.best is not None:
             self.status = Status.OPTIMAL  # nothing is better than the best plan so far
@@ -80,7 +84,7 @@ class StagedRun:
             self.best = result
         elif self.best is not None:
             self.status = Status.SOLVED
-        return result.is_stopped or self.status not in (Status.SOLVED, Status.EXHAUSTED)
+        return self.stopped is not None or self.status not in (Status.SOLVED, Status.EXHAUSTED)
 
     def bound_with(self, statistics: _relax.SearchStatistics) -> int | None:
         """Return the best lower bound of all stages and this one."""
@@ -114,6 +118,7 @@ class StagedRun:
             sum(one.evaluated for one in self.done),
             sum(one.dead_ends for one in self.done),
             sum(one.cuts for one in self.done),
+            self.stopped,
         )
 
     def cost(self, units: int | None) -> float | None:

@@ -99,14 +99,13 @@ class _Run:
         Raises:
             KeyboardInterrupt: it was interrupted.
         """
-        if result.status is Status.INTERRUPTED:
+        if result.stopped is Status.INTERRUPTED:
             raise KeyboardInterrupt
         status = STATUSES[result.status]
         if result.status is Status.OPTIMAL and not self.has_metric:
             status = PlanGenerationResultStatus.SOLVED_SATISFICING  # UP proves optimality for metrics alone
-        elif result.status is Status.SOLVED and self.optimises:  # a limit came before the proof
-            in_time = self.timeout is None or time.monotonic() - self.start < self.timeout
-            status = PlanGenerationResultStatus.MEMOUT if in_time else PlanGenerationResultStatus.TIMEOUT
+        elif result.status is Status.SOLVED and self.optimises and result.stopped is not None:  # before the proof
+            status = STATUSES[result.stopped]
         return self.with_status(result, status)
 
     def with_status(self, result: Result, status: PlanGenerationResultStatus) -> PlanGenerationResult:

@@ -25,7 +25,6 @@ from statehtn.errors import ClusterError, UsageError
 from statehtn.experiments.records import Record
 from statehtn.experiments.run import Run
 from statehtn.experiments.runner import Children, execute
-from statehtn.model.status import Status
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -242,7 +241,7 @@ def execute_parcel(parcel: Parcel) -> Record:
         domain_file, problem_file = files
         moved = replace(instance, domain_file=domain_file, problem_file=problem_file)
         record = execute(replace(parcel.run, instance=moved), children)
-    if children.stopped or record.status == Status.INTERRUPTED:
+    if children.stopped or record.was_interrupted:
         raise RunInterruptedError("it was ended from outside")
     message = record.message
     for file, original in files.items():

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from statehtn.experiments.run import Run
+from statehtn.model.status import Status
 
 KEY_COLUMNS = ("domain", "problem", "attitude", "alpha", "solver", "heuristic", "repeat")
 RESULT_COLUMNS = ("risk_cost", "lower_bound", "expected_cost", "log10_expected_utility", "length")
@@ -41,6 +42,12 @@ class Record:
     result: dict[str, Any] | None
     machine: str = ""
     version: str = ""
+
+    @property
+    def was_interrupted(self) -> bool:
+        """Whether somebody ended the run from outside, with or without a plan: it counts for nothing."""
+        stopped = (self.result or {}).get("stopped")
+        return Status.INTERRUPTED in (self.status, stopped)
 
     def row(self) -> Row:
         """Return the row of this run in the table of results."""

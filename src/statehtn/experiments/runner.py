@@ -19,7 +19,6 @@ import statehtn
 from statehtn.experiments.records import Record
 from statehtn.experiments.run import Run
 from statehtn.limits import resident_mb
-from statehtn.model.status import Status
 
 GRACE_SECONDS = 10.0
 GRACE_MEGABYTES = 200.0
@@ -38,6 +37,7 @@ STATUSES_WITHOUT_RESULT = {
     130: "interrupted",
     -signal.SIGINT: "interrupted",
     -signal.SIGTERM: "interrupted",
+    -signal.SIGHUP: "interrupted",
 }
 """The status of a run that has printed no result, by its exit code (`docs/exit-codes.md`); of all others, `error`."""
 MESSAGE_LENGTH = 4000
@@ -179,7 +179,7 @@ def execute_all(runs: Iterable[Run], jobs: int) -> Generator[Record]:
         try:
             for future in as_completed([executor.submit(execute, run, children) for run in runs]):
                 record = future.result()
-                if record.status == Status.INTERRUPTED:
+                if record.was_interrupted:
                     raise KeyboardInterrupt
                 yield record
         finally:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable
 
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.expressions import Node
 from statehtn.hddl.tokens import Source, concise, shortened
+from statehtn.log import warn
 
 
 class HddlWarning(UserWarning):
@@ -43,9 +43,9 @@ class Diagnostics:
     def emit(self, stacklevel: int) -> None:
         """Hand the warnings to Python, as if they came from the caller `stacklevel` frames up."""
         for message in self.found:
-            warnings.warn(HddlWarning(message), stacklevel=stacklevel + 1)
+            warn(HddlWarning(message), stacklevel + 1)
         if self.omitted:
-            warnings.warn(HddlWarning(f"{self.omitted} more warnings are left out"), stacklevel=stacklevel + 1)
+            warn(HddlWarning(f"{self.omitted} more warnings are left out"), stacklevel + 1)
 
 
 class Reporter:
