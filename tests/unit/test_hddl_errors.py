@@ -19,7 +19,7 @@ PROBLEM = """(define (problem p)
 (:domain d)
 (:objects c1 - car b1 - boat)
 (:htn :parameters (?p - place) :subtasks (t1 (go c1 ?p)))
-(:init (at c1 home))
+(:init (at c1 home) (late))
 (:goal (at c1 home))
 )"""
 
@@ -219,7 +219,11 @@ def test_mistakes_in_the_problem(old: str, new: str, message: str) -> None:
         ("\n)", "\n(:derived (late) ()))", "domain:8:1: derived predicates"),
         ("\n)", "\n(:functions (pos ?v) - place))", "domain:8:24: functions have the type 'number', found 'place'"),
         ("home - place", "home - (either place car)", "domain:3:34: object 'home' must have one type"),
-        ("(at c1 home))\n(:goal", "(oneof (late) (late)))\n(:goal", "problem:5:8: the initial state must be certain"),
+        (
+            "(at c1 home) (late))\n(:goal",
+            "(oneof (late) (late)))\n(:goal",
+            "problem:5:8: the initial state must be",
+        ),
         ("(:goal (at c1 home))", "(:metric maximize (total-cost))", "problem:6:1: the only metric is"),
         ("(:goal (at c1 home))", "(:metric minimize (+ (total-cost) 1))", "problem:6:1: the only metric is"),
         ("(:goal (at c1 home))", "(:constraints (always (late)))", "problem:6:1: trajectory constraints"),

@@ -40,6 +40,7 @@ DOMAIN = """
     :task (Go ?r ?b)
     :parameters (?r - (either walker van) ?a ?b - place))
   (:method m-stay :parameters (?r ?p) :task (go ?r ?p) :subtasks ())
+  (:method m-idle :task (idle))
   (:task go :parameters (?r - object ?to - place))
   (:task idle)
   (:action move

@@ -10,6 +10,7 @@ from os import PathLike
 
 from statehtn.errors import StateHtnError, UsageError
 from statehtn.expected import expect, file_name
+from statehtn.hddl.dead_ends import warn_of_dead_ends
 from statehtn.hddl.diagnostics import Diagnostics
 from statehtn.hddl.domain_reader import read_domain
 from statehtn.hddl.problem_reader import problem_objects, read_problem
@@ -110,7 +111,10 @@ def _read(domain: tuple[str, str], problem: tuple[str, str], diagnostics: Diagno
     vocabulary = Vocabulary(objects_of_the_problem)
     with _without_collector():
         read = read_domain(Source(domain_text, domain_file, limits), vocabulary, diagnostics, limits)
-        return read_problem(Source(problem_text, problem_file, limits), read, vocabulary, diagnostics, limits)
+        source = Source(problem_text, problem_file, limits)
+        whole = read_problem(source, read, vocabulary, diagnostics, limits)
+        warn_of_dead_ends(whole, vocabulary, source, diagnostics)
+        return whole
 
 
 @contextmanager

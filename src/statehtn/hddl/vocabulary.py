@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import PurePath
 from typing import Literal
 
-from statehtn.errors import Place
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.spelling import ODD, Spellings
@@ -82,24 +81,27 @@ class Vocabulary:
         """Tell whether none of the names is declared."""
         return self._spellings[kind].has_none_of(names)
 
-    def place(self, kind: Kind, name: str) -> Place | None:
-        """Return where a name, spelt like this, was declared; None if not in a file."""
+    def token(self, kind: Kind, name: str) -> tuple[Source, int]:
+        """Return the file and the token where a name, spelt like this, was declared.
+
+        Raises:
+            KeyError: not in a file.
+        """
         for source, start, end in self._ranges[kind]:
             for index in range(start, end):
                 if source.tokens[index] == name:
-                    return source.place(index)
-        return None
+                    return source, index
+        raise KeyError(name)
 
     def differ_in_case(self, kind: Kind, declared: str, name: str, reporter: Reporter) -> str:
         """Return the beginning of a message about a declared name and another one that differs in case only."""
-        place = self.place(kind, declared)
-        if place is None:
-            where = ""
-        elif place.file == reporter.source.file:
-            where = f" (line {place.line}, column {place.column})"
+        source, index = self.token(kind, declared)
+        place = source.place(index)
+        if source is reporter.source:
+            where = f"line {place.line}, column {place.column}"
         else:
-            where = f" ({PurePath(place.file).name}:{place.line}:{place.column})"
-        return f"'{name}' and '{declared}'{where} differ in case only, which means nothing in HDDL"
+            where = f"{PurePath(place.file).name}:{place.line}:{place.column}"
+        return f"'{name}' and '{declared}' ({where}) differ in case only, which means nothing in HDDL"
 
     def predicate(self, name: str) -> Signature | None:
         """Return the declaration of a predicate."""
