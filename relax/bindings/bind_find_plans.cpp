@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -60,12 +61,26 @@ private:
     std::unique_ptr<relax::Heuristic> heuristic_;
 };
 
-relax::SearchResult find_plans(const relax::GroundProblem& problem, const relax::Prices& prices,
-                               const relax::SearchOptions& options, std::optional<double> seconds,
-                               std::optional<std::size_t> memory_bytes, const nb::object& progress) {
+void check(const relax::SearchOptions& options) {
+    const bool is_portfolio = options.algorithm == relax::SearchAlgorithm::Portfolio;
     if (options.algorithm != relax::SearchAlgorithm::Greedy && !relax::is_admissible(options.heuristic)) {
         throw std::invalid_argument("the heuristic must be admissible");
     }
+    if (is_portfolio && options.members.empty()) {
+        throw std::invalid_argument("a portfolio must have members");
+    }
+    for (const std::vector<relax::SearchOptions>& stages : options.members) {
+        if (!is_portfolio || stages.empty()) {
+            throw std::invalid_argument("a portfolio, and nothing else, has members, each of one stage at least");
+        }
+        std::ranges::for_each(stages, check);
+    }
+}
+
+relax::SearchResult find_plans(const relax::GroundProblem& problem, const relax::Prices& prices,
+                               const relax::SearchOptions& options, std::optional<double> seconds,
+                               std::optional<std::size_t> memory_bytes, const nb::object& progress) {
+    check(options);
     relax::SearchStatistics statistics;
     std::function<void()> watch;
     if (!progress.is_none()) {
@@ -111,6 +126,9 @@ void bind_find_plans(nb::module_& module) {
     nb::class_<relax::SearchOptions>(module, "SearchOptions")
         .def(nb::init<>())
         .def_rw("heuristic", &relax::SearchOptions::heuristic)
+        .def_rw("more_heuristics", &relax::SearchOptions::more_heuristics)
+        .def_rw("members", &relax::SearchOptions::members)
+        .def_rw("in_sequence", &relax::SearchOptions::in_sequence)
         .def_rw("algorithm", &relax::SearchOptions::algorithm)
         .def_rw("weight", &relax::SearchOptions::weight)
         .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)

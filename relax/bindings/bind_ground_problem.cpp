@@ -16,6 +16,7 @@
 #include "python_limits.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/grounder.hpp"
+#include "relax/totally_ordered_networks.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -70,6 +71,7 @@ void bind_ground_problem(nb::module_& module) {
         .def_prop_ro("cost_part_count", &GroundProblem::cost_part_count)
         .def_prop_ro("compound_count", &GroundProblem::compound_count)
         .def_prop_ro("method_count", &GroundProblem::method_count)
+        .def_prop_ro("is_totally_ordered", &relax::TotallyOrderedNetworks::fits)
         .def_ro("fact_predicate", &GroundProblem::fact_predicate)
         .def_ro("action_schema", &GroundProblem::action_schema)
         .def_ro("compound_schema", &GroundProblem::compound_schema)

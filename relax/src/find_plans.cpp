@@ -1,7 +1,6 @@
 #include "relax/find_plans.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <new>
 #include <ranges>
 #include <utility>
@@ -48,11 +47,6 @@ FindPlans::FindPlans(const GroundProblem& problem, Prices prices, const SearchOp
     }
 }
 
-SearchResult FindPlans::run() {
-    advance(std::numeric_limits<std::uint64_t>::max());
-    return result();
-}
-
 bool FindPlans::advance(std::uint64_t work) {
     if (!problem_.solvable) {
         is_done_ = true;
@@ -71,6 +65,9 @@ bool FindPlans::advance(std::uint64_t work) {
         stop_ = StopReason::MemoryLimit;
     }
     is_done_ = is_done_ || stop_.has_value();
+    if (!is_exact()) {
+        statistics_.lower_bound = proven();
+    }
     return is_done_;
 }
 
@@ -105,7 +102,7 @@ SearchResult FindPlans::result() {
         statistics_.best = result.cost;
         statistics_.lower_bound = std::min(bound, *result.cost);
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-    } else if (!is_done_ || stop_ || (leaves_out_ && !options_.upper_bound)) {
+    } else if (!is_done_ || stop_ || bound < options_.upper_bound.value_or(kDeadEnd)) {
         statistics_.lower_bound = bound;
         result.status = stop_ ? status_of(*stop_) : SearchStatus::GaveUp;
     } else {
@@ -151,10 +148,10 @@ std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
     return std::nullopt;
 }
 
-// The priority from which nothing that is open is worth a look.
+// The priority from which nothing that is open is worth a look. Weighted search has kept its promise then: with
+// g + weight h at least the cost of the best plan for every open node, weight (g + h) is as well.
 Cost FindPlans::enough() const {
-    const Cost best = goal_ ? *statistics_.best : kDeadEnd;
-    return is_exact() ? std::min(best, options_.upper_bound.value_or(kDeadEnd)) : best;
+    return std::min(goal_ ? *statistics_.best : kDeadEnd, options_.upper_bound.value_or(kDeadEnd));
 }
 
 // The node has been expanded, or priced anew, since the entry was made.

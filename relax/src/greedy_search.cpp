@@ -16,6 +16,8 @@ namespace {
 constexpr std::int64_t kTurnsEarned = 1000;      // by preferred successors, whenever h falls below all before
 constexpr std::uint32_t kLongestWalk = 1000;     // through nodes with a single successor: networks may grow for ever
 constexpr std::uint64_t kMoreEvaluations = 200;  // after the first plan, besides as many as it took
+constexpr std::uint64_t kMoreWork = 30'000'000;  // likewise, at most
+constexpr std::uint64_t kWorkOfANode = 200;      // in operators that a heuristic looks at; by time, roughly
 
 }  // namespace
 
@@ -32,45 +34,68 @@ GreedySearch::GreedySearch(const GroundProblem& problem, Prices prices, const Se
       nodes_(progression_.networks()),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
 
-SearchResult GreedySearch::run() {
+bool GreedySearch::advance(std::uint64_t work) {
+    if (!problem_.solvable) {
+        is_done_ = true;
+    }
+    if (is_done_) {
+        return true;
+    }
+    try {
+        stop_ = search(work);
+    } catch (const Stopped& stopped) {
+        stop_ = stopped.reason;
+    } catch (const std::bad_alloc&) {
+        stop_ = StopReason::MemoryLimit;
+    }
+    is_done_ = is_done_ || stop_.has_value();
+    return is_done_;
+}
+
+std::uint64_t GreedySearch::work() const {
+    return statistics_.generated * kWorkOfANode + progression_.work() + heuristic_->work();
+}
+
+SearchResult GreedySearch::result() {
     SearchResult result;
     if (!problem_.solvable) {
         return result;
     }
-    std::optional<StopReason> stop;
-    try {
-        stop = search();
-    } catch (const Stopped& stopped) {
-        stop = stopped.reason;
-    } catch (const std::bad_alloc&) {
-        stop = StopReason::MemoryLimit;
-    }
     const Limits::Suspension suspension(limits_);
-    // All that is proven is what the root's bound says.
-    Cost proven = progression_.networks().bound(progression_.initial_network());
-    result.stop = stop;
+    result.stop = stop_;
+    statistics_.lower_bound = proven_;
     if (goal_) {
         trace_plan(problem_, prices_, progression_, nodes_, *goal_, result);
         statistics_.best = result.cost;
-        result.status = proven >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-        statistics_.lower_bound = std::min(proven, *result.cost);
-    } else if (stop) {
-        result.status = status_of(*stop);
-        statistics_.lower_bound = proven;
-    } else if (leaves_out_ || statistics_.evaluated >= most_evaluations_) {
+        result.status = proven_ >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
+        statistics_.lower_bound = std::min(proven_, *result.cost);
+    } else if (stop_) {
+        result.status = status_of(*stop_);
+    } else if (!is_done_ || leaves_out_ || options_.in_sequence || statistics_.evaluated >= most_evaluations_) {
         result.status = SearchStatus::GaveUp;
-        statistics_.lower_bound = proven;
     } else {
         result.status = SearchStatus::Unsolvable;
+        statistics_.lower_bound.reset();
     }
     result.statistics = statistics_;
     return result;
 }
 
-// Search until there is a plan and time for it is up, or nothing is open. Says why it stopped before that.
-std::optional<StopReason> GreedySearch::search() {
-    open_.push(nodes_.add(progression_.initial_state(), progression_.initial_network()), 0, 0, 1);
+// Search until there is a plan and time for it is up, or nothing is open, or the work is done. Says why it was stopped
+// before that.
+std::optional<StopReason> GreedySearch::search(std::uint64_t most_work) {
+    if (nodes_.size() == 0) {
+        proven_ = progression_.networks().bound(progression_.initial_network());
+        open_.push(nodes_.add(progression_.initial_state(), progression_.initial_network()), 0, 0, 1);
+    }
     while ((!open_.is_empty() || !preferred_.is_empty()) && statistics_.evaluated < most_evaluations_) {
+        const std::uint64_t so_far = work();
+        if (so_far >= most_work_) {
+            break;
+        }
+        if (so_far >= most_work) {
+            return std::nullopt;
+        }
         if (const auto stop = limits_.check()) {
             return stop;
         }
@@ -94,6 +119,7 @@ std::optional<StopReason> GreedySearch::search() {
         }
         push_successors(*node, *h);
     }
+    is_done_ = true;
     return std::nullopt;
 }
 
@@ -170,6 +196,7 @@ std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& suc
     if (progression_.networks().is_empty(successor.network)) {
         if (!goal_) {
             most_evaluations_ = 2 * statistics_.evaluated + kMoreEvaluations;
+            most_work_ = work() + kMoreWork;
         }
         goal_ = id;
         options_.upper_bound = g;

@@ -79,6 +79,7 @@ private:
 class Additive : private RelaxedPlan {
 public:
     using RelaxedPlan::kReadsOperators;
+    using RelaxedPlan::work;
 
     Additive(const RelaxedModel& model, Limits& limits) : RelaxedPlan(model, limits) {}
     std::optional<Cost> run(const RelaxedTask& task) { return add(task); }
@@ -88,6 +89,7 @@ class Ff : private RelaxedPlan {
 public:
     using RelaxedPlan::kReadsOperators;
     using RelaxedPlan::uses;
+    using RelaxedPlan::work;
 
     Ff(const RelaxedModel& model, Limits& limits) : RelaxedPlan(model, limits) {}
     std::optional<Cost> run(const RelaxedTask& task) { return ff(task); }

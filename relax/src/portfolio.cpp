@@ -1,27 +1,44 @@
 #include "relax/portfolio.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <utility>
 
-#include "relax/tdg_bound.hpp"
+#include "relax/cost.hpp"
+#include "relax/find_plans.hpp"
+#include "relax/greedy_search.hpp"
 
 namespace relax {
 
 namespace {
 
-constexpr std::uint64_t kFirstTurn = 1'000'000;  // of work
-constexpr std::uint64_t kLaggardsShare = 8;      // one part in so many
-constexpr std::uint64_t kPreparation = 100;      // of a relaxed model, for each action and method
+constexpr std::uint64_t kFirstTurn = 1'000'000;   // of work
+constexpr std::uint64_t kLaggardsShare = 8;       // one part in so many
+constexpr std::uint64_t kPreparation = 100;       // of a relaxed model, for each action and method
+constexpr std::uint64_t kHeadStart = 30'000'000;  // of a greedy search
+constexpr std::uint64_t kNoEnd = std::numeric_limits<std::uint64_t>::max();
+
+bool has_model(HeuristicKind kind) { return kind != HeuristicKind::Blind && kind != HeuristicKind::Tdg; }
 
 }  // namespace
 
 Portfolio::Portfolio(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
                      SearchStatistics& statistics)
-    : problem_(problem), prices_(std::move(prices)), options_(options), limits_(limits), statistics_(statistics) {
-    members_.push_back({HeuristicKind::Tdg, {}, {}, nullptr});
-    members_.push_back({HeuristicKind::LmCut, {}, {}, nullptr});
-    members_.push_back({HeuristicKind::PotentialHMax, {HeuristicKind::Potential, HeuristicKind::LmCut}, {}, nullptr});
+    : problem_(problem),
+      prices_(std::move(prices)),
+      limits_(limits),
+      statistics_(statistics),
+      upper_bound_(options.upper_bound) {
+    const std::uint64_t model = kPreparation * (problem.action_count() + problem.method_count());
+    for (const std::vector<SearchOptions>& stages : options.members) {
+        std::uint64_t models = has_model(stages.front().heuristic) ? 1 : 0;
+        models += static_cast<std::uint64_t>(std::ranges::count_if(stages.front().more_heuristics, has_model));
+        members_.push_back({stages, models * model, {}, nullptr});
+    }
+    for (Member& member : members_) {
+        greedy_ = member.is_greedy() ? &member : greedy_;
+    }
 }
 
 SearchResult Portfolio::run() {
@@ -30,47 +47,89 @@ SearchResult Portfolio::run() {
         add_up();
         return poll && poll();
     };
-    const std::uint64_t preparation = kPreparation * (problem_.action_count() + problem_.method_count());
-    for (std::uint64_t work = kFirstTurn;; work *= 2) {
+    bool is_done = find_plan();
+    for (std::uint64_t work = kFirstTurn; !is_done; work *= 2) {
         for (Member& member : members_) {
-            if (member.heuristic != HeuristicKind::Tdg && work < preparation) {
+            if (&member == greedy_ || work < member.preparation) {
                 continue;
             }
-            if (take_turn(member, lags(member, work) ? work / kLaggardsShare : work)) {
-                return gather(member);
+            is_done = take_turn(member, member.preparation + (lags(member, work) ? work / kLaggardsShare : work)) ||
+                      (greedy_ != nullptr && statistics_.best) || find_plan();
+            if (is_done) {
+                break;
             }
         }
     }
+    return gather();
+}
+
+// Let the greedy search, if there is one, do as much as all others have done, or end once it has a plan. Returns
+// whether that is the end of all.
+bool Portfolio::find_plan() {
+    if (greedy_ == nullptr) {
+        return false;
+    }
+    std::uint64_t others = 0;
+    for (const Member& member : members_) {
+        others += &member == greedy_ ? 0 : member.work();
+    }
+    return take_turn(*greedy_, std::max(kHeadStart, others)) ||
+           (greedy_->search && greedy_->search->best() && take_turn(*greedy_, kNoEnd));
 }
 
 // Let the member search until it has done so much in all. Returns whether that is the end of all.
 bool Portfolio::take_turn(Member& member, std::uint64_t work) {
-    if (!member.search) {
-        SearchOptions options = options_;
-        options.algorithm = SearchAlgorithm::AStar;
-        options.heuristic = member.heuristic;
-        options.more_heuristics = member.more_heuristics;
-        try {
-            member.search = std::make_unique<FindPlans>(problem_, prices_, options, limits_, member.statistics);
-        } catch (const Stopped& stopped) {
-            stop_ = stopped.reason;
-        } catch (const std::bad_alloc&) {
-            stop_ = StopReason::MemoryLimit;
-        }
-        if (stop_) {
+    while (member.work() < work && !member.has_given_up) {
+        if (!member.search && !begin_stage(member)) {
             return true;
         }
+        const bool is_done = member.search->advance(work - std::min(work, member.done + member.preparation));
         share_bounds();
+        if (!is_done) {
+            break;
+        }
+        ended_ = &member;
+        const bool gave_up = !member.search->best() && member.search->result().status == SearchStatus::GaveUp;
+        if (!gave_up) {
+            return true;
+        }
+        member.has_given_up = member.statistics.size() == member.stages.size();
+        if (member.has_given_up && greedy_ == nullptr) {
+            return true;
+        }
+        member.done = member.work();
+        member.search.reset();
     }
-    const bool is_done = member.search->advance(work);
+    const bool is_proven = statistics_.best && statistics_.lower_bound >= statistics_.best;
+    ended_ = is_proven ? &member : ended_;
+    return is_proven;
+}
+
+// Prepare the member's next stage. False: a limit was reached.
+bool Portfolio::begin_stage(Member& member) {
+    SearchOptions options = member.stages[member.statistics.size()];
+    options.upper_bound = upper_bound_;
+    SearchStatistics& statistics = member.statistics.emplace_back();
+    try {
+        if (member.is_greedy()) {
+            member.search = std::make_unique<GreedySearch>(problem_, prices_, options, limits_, statistics);
+        } else {
+            member.search = std::make_unique<FindPlans>(problem_, prices_, options, limits_, statistics);
+        }
+    } catch (const Stopped& stopped) {
+        stop_ = stopped.reason;
+    } catch (const std::bad_alloc&) {
+        stop_ = StopReason::MemoryLimit;
+    }
     share_bounds();
-    return is_done || (statistics_.best && statistics_.lower_bound >= statistics_.best);
+    return !stop_;
 }
 
 // Another one has proven more, and has not done more.
 bool Portfolio::lags(const Member& member, std::uint64_t work) const {
     return std::ranges::any_of(members_, [&](const Member& other) {
-        return member.search && other.search && other.search->lower_bound() > member.search->lower_bound() &&
+        return &other != greedy_ && member.search && other.search &&
+               other.search->lower_bound() > member.search->lower_bound() &&
                other.search->work() <= std::max(work, member.search->work());
     });
 }
@@ -79,17 +138,18 @@ void Portfolio::add_up() {
     statistics_.expanded = statistics_.generated = statistics_.evaluated = 0;
     statistics_.dead_ends = statistics_.cuts = 0;
     for (const Member& member : members_) {
-        const SearchStatistics& own = member.statistics;
-        statistics_.expanded += own.expanded;
-        statistics_.generated += own.generated;
-        statistics_.evaluated += own.evaluated;
-        statistics_.dead_ends += own.dead_ends;
-        statistics_.cuts += own.cuts;
-        if (own.lower_bound) {
-            statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), *own.lower_bound);
-        }
-        if (own.best && (!statistics_.best || *own.best < *statistics_.best)) {
-            statistics_.best = own.best;
+        for (const SearchStatistics& own : member.statistics) {
+            statistics_.expanded += own.expanded;
+            statistics_.generated += own.generated;
+            statistics_.evaluated += own.evaluated;
+            statistics_.dead_ends += own.dead_ends;
+            statistics_.cuts += own.cuts;
+            if (own.lower_bound) {
+                statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), *own.lower_bound);
+            }
+            if (own.best && (!statistics_.best || *own.best < *statistics_.best)) {
+                statistics_.best = own.best;
+            }
         }
     }
 }
@@ -99,25 +159,28 @@ void Portfolio::share_bounds() {
     add_up();
     if (statistics_.best) {
         for (const Member& member : members_) {
-            if (member.search && member.statistics.best != statistics_.best) {
+            if (member.search && member.search->best() != statistics_.best) {
                 member.search->set_upper_bound(*statistics_.best);
             }
         }
     }
 }
 
-// Put together what is known when the last search has ended: its result, with the best plan and bound of all.
-SearchResult Portfolio::gather(Member& ended) {
-    Member& last = ended.search ? ended : members_.front();
-    if (!last.search) {
-        throw Stopped{*stop_};
+// Put together what is known at the end: the result of the member that has ended all, with the best plan and the best
+// bound of all.
+SearchResult Portfolio::gather() {
+    SearchResult result;
+    Cost bound = 0;
+    if (ended_ != nullptr && ended_->search) {
+        result = ended_->search->result();
+        bound =
+            result.statistics.lower_bound.value_or(result.status == SearchStatus::Unsolvable ? kNoDecomposition : 0);
+    } else {
+        result.status = SearchStatus::GaveUp;
     }
-    SearchResult result = last.search->result();
-    Cost bound =
-        result.statistics.lower_bound.value_or(result.status == SearchStatus::Unsolvable ? kNoDecomposition : 0);
     const std::optional<StopReason> stop = result.stop ? result.stop : stop_;
     for (Member& member : members_) {
-        if (!member.search || &member == &last) {
+        if (!member.search || &member == ended_) {
             continue;
         }
         bound = std::max(bound, member.search->lower_bound());

@@ -5,16 +5,19 @@
 #include <utility>
 
 #include "relax/cost.hpp"
+#include "relax/totally_ordered_networks.hpp"
 
 namespace relax {
 
 namespace {
 
-std::optional<ActionId> first_action(const GroundProblem& problem, MethodId method) {
+std::optional<ActionId> first_action(const GroundProblem& problem, MethodId method, bool in_sequence) {
     const auto subtasks = problem.method_subtasks[method];
     const auto ordering = problem.method_ordering[method];
     std::size_t first = 0;  // if there is only one subtask
-    if (subtasks.size() > 1) {
+    if (in_sequence && subtasks.size() > 1) {
+        first = sequence_of(problem, method).front();
+    } else if (subtasks.size() > 1) {
         // The pairs are sorted: look for a run that has all the others.
         std::size_t run = 0;
         std::size_t at = 0;
@@ -37,7 +40,7 @@ Progression::Progression(const GroundProblem& problem, Prices prices, std::vecto
       prices_(std::move(prices)),
       transition_(problem),
       states_(transition_.word_count()),
-      networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros, limits)),
+      networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros, options.in_sequence, limits)),
       branching_(problem),
       next_(transition_.word_count()) {
     for (ActionId action = 0; action < problem.action_count(); ++action) {
@@ -52,7 +55,7 @@ Progression::Progression(const GroundProblem& problem, Prices prices, std::vecto
     if (options.skip_dead_methods) {
         for (MethodId method = 0; method < problem.method_count(); ++method) {
             limits.stop_if_reached();
-            first_action_.push_back(first_action(problem, method));
+            first_action_.push_back(first_action(problem, method, options.in_sequence));
         }
     }
 }

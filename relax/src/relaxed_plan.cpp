@@ -93,6 +93,7 @@ std::optional<Cost> RelaxedPlan::add(const RelaxedTask& task) {
             continue;
         }
         open_goals -= wanted_[fact] == epoch_ ? 1 : 0;
+        work_ += model_.precondition_of[fact].size();
         for (const OperatorId op : model_.precondition_of[fact]) {
             OperatorState& state = operators_[op];
             if (state.epoch != epoch_) {
@@ -148,6 +149,7 @@ Cost RelaxedPlan::extract_plan(const RelaxedTask& task) {
         pending_.pop_back();
         if (op != kGiven && in_plan_[op] != epoch_) {
             in_plan_[op] = epoch_;
+            ++work_;
             total = add_bounds(total, weight_[op]);
             for (const RelaxedFact needed : model_.preconditions[op]) {
                 if (wanted_[needed] != epoch_) {

@@ -1,5 +1,6 @@
 #include "relax/search.hpp"
 
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -12,10 +13,15 @@ namespace relax {
 
 namespace {
 
+SearchResult finish(StepwiseSearch&& search) {
+    search.advance(std::numeric_limits<std::uint64_t>::max());
+    return search.result();
+}
+
 SearchResult search_or_throw(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
                              SearchStatistics& statistics) {
     if (options.algorithm == SearchAlgorithm::Greedy) {
-        return GreedySearch(problem, std::move(prices), options, limits, statistics).run();
+        return finish(GreedySearch(problem, std::move(prices), options, limits, statistics));
     }
     if (options.algorithm == SearchAlgorithm::PlanBased) {
         return PlanBased(problem, std::move(prices), options, limits, statistics).run();
@@ -23,7 +29,7 @@ SearchResult search_or_throw(const GroundProblem& problem, Prices prices, const 
     if (options.algorithm == SearchAlgorithm::Portfolio) {
         return Portfolio(problem, std::move(prices), options, limits, statistics).run();
     }
-    return FindPlans(problem, std::move(prices), options, limits, statistics).run();
+    return finish(FindPlans(problem, std::move(prices), options, limits, statistics));
 }
 
 // The end of a search that a limit stopped while it was being prepared.

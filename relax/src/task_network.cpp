@@ -8,8 +8,8 @@
 namespace relax {
 
 std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
-                                                 bool use_macros, Limits& limits) {
-    if (TotallyOrderedNetworks::fits(problem)) {
+                                                 bool use_macros, bool in_sequence, Limits& limits) {
+    if (in_sequence || TotallyOrderedNetworks::fits(problem)) {
         return std::make_unique<TotallyOrderedNetworks>(problem, std::move(task_bounds), use_macros, limits);
     }
     return std::make_unique<PartiallyOrderedNetworks>(problem, std::move(task_bounds), limits);

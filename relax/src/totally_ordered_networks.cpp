@@ -1,6 +1,7 @@
 #include "relax/totally_ordered_networks.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "relax/tdg_bound.hpp"
@@ -13,23 +14,43 @@ std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_
 
 }  // namespace
 
+std::vector<std::uint32_t> sequence_of(const GroundProblem& problem, MethodId method) {
+    const auto ordering = problem.method_ordering[method];  // sorted pairs
+    const std::size_t count = problem.method_subtasks[method].size();
+    std::vector<std::uint32_t> before(count, 0);
+    for (const auto& [earlier, later] : ordering) {
+        ++before[later];
+    }
+    // Of those that may come next, the first in the domain: a heap.
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t subtask = 0; subtask < count; ++subtask) {
+        if (before[subtask] == 0) {
+            open.push_back(subtask);
+        }
+    }
+    std::vector<std::uint32_t> sequence;
+    while (!open.empty()) {
+        std::ranges::pop_heap(open, std::greater<>());
+        const std::uint32_t next = open.back();
+        open.pop_back();
+        sequence.push_back(next);
+        for (const auto& [earlier, later] :
+             std::ranges::equal_range(ordering, next, {}, [](const auto& pair) { return pair.first; })) {
+            if (--before[later] == 0) {
+                open.push_back(later);
+                std::ranges::push_heap(open, std::greater<>());
+            }
+        }
+    }
+    return sequence;
+}
+
 TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
                                                bool use_macros, Limits& limits)
     : problem_(problem), task_bounds_(std::move(task_bounds)) {
-    std::vector<std::uint32_t> before;  // the order is transitively closed: this is the subtask's place
-    std::vector<std::uint32_t> sequence;
     for (MethodId method = 0; method < problem.method_count(); ++method) {
         limits.stop_if_reached();
-        const std::size_t count = problem.method_subtasks[method].size();
-        before.assign(count, 0);
-        for (const auto& [earlier, later] : problem.method_ordering[method]) {
-            ++before[later];
-        }
-        sequence.resize(count);
-        for (std::uint32_t subtask = 0; subtask < count; ++subtask) {
-            sequence[before[subtask]] = subtask;
-        }
-        sequence_.add_row(sequence);
+        sequence_.add_row(sequence_of(problem, method));
     }
     if (use_macros) {
         macros_.emplace(problem, limits);

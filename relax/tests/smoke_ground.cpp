@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "relax/find_plans.hpp"
 #include "relax/grounder.hpp"
+#include "relax/search.hpp"
 
 namespace {
 
@@ -80,7 +80,7 @@ bool solve(std::uint32_t places) {
     }
     prices.parts.assign(problem->cost_part_count(), 10);
     relax::SearchStatistics statistics;
-    const auto result = relax::FindPlans(*problem, prices, {}, limits, statistics).run();
+    const auto result = relax::search(*problem, prices, {}, limits, statistics);
     return result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{2} + (places - 1);
 }
 

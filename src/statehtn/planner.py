@@ -54,7 +54,7 @@ def plan(
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
         heuristic: a name from `HEURISTICS`, or `auto`, the default for `astar` and `anytime`: three A* searches by
-            turns. The default is `ff` for greedy search, `potential-hmax` for weighted search, and `tdg` for the
+            turns. The default is `ff` for greedy search, and `tdg` for the
             solver `plan`, which takes `blind` besides.
         search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
             finds one soon, and better ones until it is optimal.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Literal, cast
 
-from statehtn.core.heuristics import HEURISTICS, PORTFOLIO, WEIGHTED, why_refused
+from statehtn.core.heuristics import GREEDY, HEURISTICS, PORTFOLIO, why_refused
 from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS
 from statehtn.core.stages import SEARCHES
 from statehtn.errors import UsageError
@@ -24,7 +24,7 @@ SOLVERS: Mapping[str, str] = MappingProxyType(
 """The solvers by name, with a line about each."""
 HEURISTIC_CHOICES = (PORTFOLIO, *HEURISTICS)
 """What may be asked for as a heuristic."""
-PORTFOLIO_SEARCHES = ("astar", "anytime")
+PORTFOLIO_SEARCHES = ("astar", "weighted", "anytime")
 DEFAULT_WEIGHT = 2.0
 
 
@@ -86,7 +86,7 @@ def default_heuristic(solver: str, search: str) -> str:
     """Return the heuristic that is taken where none is given."""
     if solver == "plan":
         return PLAN_BASED_HEURISTICS[0]
-    return {"greedy": "ff", "weighted": WEIGHTED}.get(search, PORTFOLIO)
+    return GREEDY if search == "greedy" else PORTFOLIO
 
 
 def mismatch(solver: str, heuristic: str | None, search: str) -> str | None:

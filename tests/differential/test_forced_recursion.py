@@ -15,7 +15,9 @@ from hypothesis import strategies as st
 
 from statehtn import Problem, Status, read_hddl_text, validate
 from statehtn.core.grounding import ground
-from statehtn.core.search import SEARCHES, SearchSwitches, find_plans
+from statehtn.core.search import find_plans
+from statehtn.core.stages import SEARCHES
+from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
 from statehtn.risk import utility_for
 from tests.differential.oracles import close_to

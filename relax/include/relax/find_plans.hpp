@@ -20,6 +20,7 @@
 #include "relax/search_options.hpp"
 #include "relax/search_result.hpp"
 #include "relax/segmented_array.hpp"
+#include "relax/stepwise_search.hpp"
 
 namespace relax {
 
@@ -28,7 +29,7 @@ namespace relax {
 // with the same state and networks of one form the best is kept, and reopened when a cheaper way to it turns up.
 //
 // Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
-class FindPlans {
+class FindPlans final : public StepwiseSearch {
 public:
     // The heuristics must be admissible. `statistics` is kept up to date for whoever
     // watches from `limits.poll`.
@@ -38,19 +39,14 @@ public:
     // Search to the end.
     SearchResult run();
 
-    // Search on until `work` says so much, or to the end; false: there is more to do. Several searches take turns that
-    // way (see Portfolio).
-    bool advance(std::uint64_t work);
-    // What it has done so far, in operators of heuristics looked at or their worth; nodes cost the more, the larger
-    // their networks are.
-    std::uint64_t work() const;
-    // Plans are wanted from now on only if they cost less.
-    void set_upper_bound(Cost bound) { options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound)); }
-    // What every plan costs at least, as far as is known from the nodes that have been looked at.
-    Cost lower_bound() const { return statistics_.lower_bound.value_or(0); }
-    std::optional<Cost> best() const { return statistics_.best; }
-    // What it has come to, at the end or so far.
-    SearchResult result();
+    bool advance(std::uint64_t work) override;
+    std::uint64_t work() const override;
+    void set_upper_bound(Cost bound) override {
+        options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound));
+    }
+    Cost lower_bound() const override { return statistics_.lower_bound.value_or(0); }
+    std::optional<Cost> best() const override { return statistics_.best; }
+    SearchResult result() override;
 
 private:
     std::optional<StopReason> search(std::uint64_t most_work);

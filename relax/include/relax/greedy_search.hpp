@@ -1,7 +1,9 @@
 #ifndef RELAX_GREEDY_SEARCH_HPP
 #define RELAX_GREEDY_SEARCH_HPP
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "relax/search_node.hpp"
 #include "relax/search_options.hpp"
 #include "relax/search_result.hpp"
+#include "relax/stepwise_search.hpp"
 #include "relax/type_based_list.hpp"
 
 namespace relax {
@@ -28,15 +31,23 @@ namespace relax {
 //
 // A node with a single successor is nothing to decide: the search goes through it without asking the heuristic. Once it
 // has a plan, it goes on for as long as that took, for a cheaper one.
-class GreedySearch {
+class GreedySearch final : public StepwiseSearch {
 public:
     GreedySearch(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
                  SearchStatistics& statistics);
 
-    SearchResult run();
+    bool advance(std::uint64_t work) override;
+    std::uint64_t work() const override;
+    void set_upper_bound(Cost bound) override {
+        options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound));
+    }
+    // All that is proven is what the root's bound says.
+    Cost lower_bound() const override { return proven_; }
+    std::optional<Cost> best() const override { return statistics_.best; }
+    SearchResult result() override;
 
 private:
-    std::optional<StopReason> search();
+    std::optional<StopReason> search(std::uint64_t most_work);
     NodeId pop();
     std::optional<NodeId> follow(NodeId node);
     std::optional<Cost> evaluate(NodeId node);
@@ -58,9 +69,13 @@ private:
     std::int64_t preferred_turns_ = 0;  // of the list of preferred successors, less what it has earned
     bool explores_ = false;             // the next node comes from the type-based list
     std::optional<Cost> least_h_;
+    Cost proven_ = 0;
     std::optional<NodeId> goal_;  // of the cheapest plan so far
-    bool leaves_out_ = false;     // there may be plans that cost `kMostCost` or more
+    std::optional<StopReason> stop_;
+    bool is_done_ = false;
+    bool leaves_out_ = false;  // there may be plans that cost `kMostCost` or more
     std::uint64_t most_evaluations_;
+    std::uint64_t most_work_ = std::numeric_limits<std::uint64_t>::max();
     ForcedCircle circle_;
     std::vector<Successor> successors_;
 };

@@ -38,6 +38,7 @@ struct ProgressionOptions {
     bool use_stubborn_sets = true;  // leave out actions that can wait until others have been executed
     bool use_macros = false;        // actions in a row count as one (TaskNetworks::form)
     bool forget_facts = true;       // states keep only the facts that matter to what is left to do
+    bool in_sequence = false;       // tasks without an order come in that of the domain: some plans are left out
 };
 
 // Progression over states and task networks; knows nothing of search algorithms.

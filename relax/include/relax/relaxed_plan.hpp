@@ -30,6 +30,8 @@ public:
     std::optional<Cost> add(const RelaxedTask& task);
     // Returns the weight of the relaxed plan, or nothing where a goal is out of reach.
     std::optional<Cost> ff(const RelaxedTask& task);
+    // How many operators it has looked at so far, again and again.
+    std::uint64_t work() const { return work_; }
     // Whether the latest relaxed plan contains the operator.
     bool uses(OperatorId op) const { return in_plan_[op] == epoch_; }
 
@@ -65,6 +67,7 @@ private:
     std::vector<RelaxedFact> goals_;
     std::vector<QueueEntry> queue_;
     std::uint32_t epoch_ = 0;
+    std::uint64_t work_ = 0;
 };
 
 }  // namespace relax

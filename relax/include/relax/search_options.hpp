@@ -11,8 +11,7 @@
 
 namespace relax {
 
-// PlanBased searches task networks alone, the others states and task networks. Portfolio is A* with several heuristics
-// in turn.
+// PlanBased searches task networks alone, the others states and task networks. Portfolio: several searches in turn.
 enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased, Portfolio };
 
 struct SearchOptions : ProgressionOptions {
@@ -33,6 +32,9 @@ struct SearchOptions : ProgressionOptions {
     bool checks_preconditions = true;  // PlanBased leaves out networks with a precondition that cannot be met
     bool explores = true;              // Greedy takes every other node from the type-based list
     std::optional<std::uint64_t> most_evaluations;  // Greedy gives up after so many without a plan
+    // Portfolio: the searches that take turns, each a sequence of stages, of which a later one begins when an earlier
+    // one has given up.
+    std::vector<std::vector<SearchOptions>> members;
 };
 
 }  // namespace relax

@@ -69,9 +69,9 @@ public:
     bool is_empty(NetworkId network) const { return size(network) == 0; }
 };
 
-// `task_bounds`: by TaskId, see tdg_bound.
+// `task_bounds`: by TaskId, see tdg_bound. `in_sequence`: lists even where methods do not order their subtasks totally.
 std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
-                                                 bool use_macros, Limits& limits);
+                                                 bool use_macros, bool in_sequence, Limits& limits);
 
 }  // namespace relax
 

@@ -11,11 +11,15 @@
 
 namespace relax {
 
+// The method's subtasks by index, in their order; where they have none, in that of the domain.
+std::vector<std::uint32_t> sequence_of(const GroundProblem& problem, MethodId method);
+
 // Lists of tasks: a first task and the number of the rest. Equal lists have equal numbers. Actions that stand together
 // in a list will be executed one after the other, so a list's form has a macro-action in their place.
 class TotallyOrderedNetworks final : public TaskNetworks {
 public:
-    // `use_macros`: whether forms are wanted.
+    // `use_macros`: whether forms are wanted. Methods that do not order their subtasks totally are taken as if they
+    // did.
     TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, bool use_macros,
                            Limits& limits);
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 PLAN_EPILOG = """heuristics:
-  auto       three A* searches in turn, which share what they prove: with tdg, with lmcut,
+  auto       three searches in turn, which share what they prove: with tdg, with lmcut,
              and with potential-hmax, potential and lmcut one after the other
 {}
 
@@ -134,7 +134,7 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
     search.add_argument(
         "--heuristic",
         choices=HEURISTIC_CHOICES,
-        help="default: auto; ff for greedy and potential-hmax for weighted search; tdg for the solver plan",
+        help="default: auto; ff for greedy search; tdg for the solver plan",
     )
     search.add_argument(
         "--search",

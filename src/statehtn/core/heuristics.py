@@ -91,12 +91,11 @@ ADMISSIBLE = tuple(name for name, info in HEURISTICS.items() if info.admissible)
 """Those that never estimate too much: what a search proves rests on that."""
 
 PORTFOLIO = "auto"
-"""The name of no heuristic, but of three A* searches in turn, which share what they prove: with `tdg`, with `lmcut`,
-and with `potential-hmax`, `potential` and `lmcut` one after the other."""
+"""The name of no heuristic, but of three searches in turn, which share what they prove: with `tdg`, with `lmcut`, and
+with `potential-hmax`, `potential` and `lmcut` one after the other."""
 
-
-WEIGHTED = "potential-hmax"
-"""The heuristic of weighted search where none is named: it tells most for its time."""
+GREEDY = "ff"
+"""The heuristic of greedy search where none is named."""
 
 
 def why_refused(heuristic: str, search: str) -> str | None:

@@ -7,13 +7,12 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import TypeVar
 
-import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.heuristics import HEURISTICS, PORTFOLIO, WEIGHTED
+from statehtn.core.heuristics import PORTFOLIO
 from statehtn.core.pricing import price
 from statehtn.core.progress import Progress
 from statehtn.core.staged_run import SearchOutcome, StagedRun
-from statehtn.core.stages import SEARCHES
+from statehtn.core.stages import SEARCHES, core_options
 from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
 from statehtn.model.status import Status
@@ -44,7 +43,7 @@ def find_plans(
     Args:
         grounding: the ground problem and its cost laws.
         utility: the agent's; it prices the actions.
-        heuristic: a name in `HEURISTICS`, or `PORTFOLIO` for A* with several of them in turn.
+        heuristic: a name in `HEURISTICS`, or `PORTFOLIO` for searches with several of them in turn.
         search: a name in `SEARCHES`; with an admissible heuristic `astar` and `anytime` promise the optimum, `weighted`
             a plan of at most `weight` times its risk cost.
         weight: of h in the weighted search, at least 1.
@@ -82,23 +81,8 @@ def improving_plans(
     All but the last have the status `SOLVED`. Only `anytime` has several stages that find plans.
     """
     run = StagedRun(grounding, price(grounding, utility), limits, progress)
-    size = max(1, grounding.handle.action_count + grounding.handle.method_count)
     for stage in SEARCHES[search]:
-        if stage.algorithm is _relax.SearchAlgorithm.Greedy and run.best is not None:
-            continue
-        options = _relax.SearchOptions()
-        options.algorithm = stage.algorithm
-        name = stage.heuristic or heuristic
-        if name == PORTFOLIO and stage.algorithm is _relax.SearchAlgorithm.AStar:
-            options.algorithm = _relax.SearchAlgorithm.Portfolio
-        else:
-            options.heuristic = HEURISTICS[WEIGHTED if name == PORTFOLIO else name].kind
-        options.weight = stage.weight or weight
-        options.most_evaluations = stage.most_evaluations
-        options.explores = stage.explores
-        if stage.most_looks is not None:
-            options.most_evaluations = min(stage.most_evaluations or stage.most_looks, 1 + stage.most_looks // size)
-        switches.apply(options)
+        options = core_options(stage, grounding, heuristic, weight, switches)
         best = run.best
         if run.stage(options):
             break
