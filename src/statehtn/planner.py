@@ -53,7 +53,7 @@ def plan(
         attitude: neutral, averse or seeking.
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
         solver: a name from `SOLVERS`.
-        heuristic: a name from `HEURISTICS`, or `auto`, the default for `astar` and `anytime`: three A* searches by
+        heuristic: a name from `HEURISTICS`, or `auto`, the default for all but greedy search: three searches by
             turns. The default is `ff` for greedy search, and `tdg` for the
             solver `plan`, which takes `blind` besides.
         search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
