@@ -26,8 +26,10 @@ WALK = """
   (:method home :parameters () :task (wander) :precondition (there) :ordered-subtasks (and (come) (wander)))
   (:method stay :parameters (?p) :task (wander) :precondition (and (marked ?p) (not (there))) :subtasks ())
   (:action go :parameters () :precondition (not (there))
-    :effect (and (there) (tired) (when (tired) (increase (total-cost) 4)) (probabilistic 0.5 (increase (total-cost) 2) 0.5 (increase (total-cost) 0))))
-  (:action come :parameters () :precondition (there) :effect (and (not (there)) (increase (total-cost) 1) (when (tired) (increase (total-cost) 3)))))
+    :effect (and (there) (tired) (when (tired) (increase (total-cost) 4))
+      (probabilistic 0.5 (increase (total-cost) 2) 0.5 (increase (total-cost) 0))))
+  (:action come :parameters () :precondition (there)
+    :effect (and (not (there)) (increase (total-cost) 1) (when (tired) (increase (total-cost) 3)))))
 """
 PROBLEM = """
 (define (problem p) (:domain walk) (:objects a b)
