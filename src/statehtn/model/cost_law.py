@@ -265,9 +265,10 @@ def _convolution(left: ExactLaw, right: ExactLaw) -> ExactLaw:
 
 def _rounded(law: ExactLaw, action: Action, arguments: tuple[str, ...]) -> CostDistribution:
     try:
-        return CostDistribution.of((float(probability), float(cost)) for cost, probability in law.items())
+        outcomes = [(float(probability), float(cost)) for cost, probability in law.items()]
     except OverflowError:
         raise InputError(f"the cost of {_name(action, arguments)} is too large for a floating-point number") from None
+    return CostDistribution.of(outcomes)
 
 
 def _check(what: str, value: Fraction) -> None:
