@@ -5,7 +5,7 @@ from __future__ import annotations
 from statehtn import plan, read_hddl_text, validate
 from statehtn.core.grounding import GroundingSwitches, ground
 from statehtn.core.schemes import Scheme, method_schemes
-from statehtn.model import Problem
+from statehtn.model import And, Atom, Exists, Not, Parameter, Problem
 
 DOMAIN = """
 (define (domain d)

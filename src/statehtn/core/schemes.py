@@ -139,9 +139,7 @@ def _predicates(formula: Formula) -> Iterator[str]:
             yield from _predicates(body)
 
 
-def _guard(
-    name: str, parameters: Sequence[Parameter], condition: Sequence[Formula], fixed: Sequence[Formula]
-) -> Guard:
+def _guard(name: str, parameters: Sequence[Parameter], condition: Sequence[Formula], fixed: Sequence[Formula]) -> Guard:
     """Return the guard with this condition, and whatever else must be true of its variables for good.
 
     The method demands what is fixed in any case. Without it the guard would be instantiated for every combination of
