@@ -11,6 +11,7 @@ from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
+from statehtn.model.unknown_cost import refuse_unknown
 from statehtn.result import PricedStep
 from statehtn.risk import Utility
 from statehtn.validate import validate
@@ -53,6 +54,7 @@ def validated_and_priced(problem: Problem, plan: Plan, utility: Utility, limits:
 
     Raises:
         InternalError: the plan is wrong.
+        MissingNumber: a cost of the plan needs a number that `:init` does not give.
     """
     try:
         validation = validate(problem, plan, limits)
@@ -65,8 +67,13 @@ def validated_and_priced(problem: Problem, plan: Plan, utility: Utility, limits:
 
 
 def not_validated(plan: Plan, utility: Utility, stopped: Status) -> FoundPlan:
-    """Return a plan with the prices of the search, since something ended the run before validation did."""
+    """Return a plan with the prices of the search, since something ended the run before validation did.
+
+    Raises:
+        MissingNumber: a cost of the plan needs a number that `:init` does not give.
+    """
     assert plan.costs is not None
+    refuse_unknown(plan.costs)
     return FoundPlan(plan, _priced(plan, plan.costs, utility), stopped)
 
 

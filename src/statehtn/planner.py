@@ -22,6 +22,7 @@ from statehtn.log import log
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
+from statehtn.model.unknown_cost import MissingNumber
 from statehtn.query import BranchName, HeuristicName, Query, SearchName, SolverName
 from statehtn.result import Result
 from statehtn.risk import Attitude, AttitudeName, problem_class
@@ -250,6 +251,7 @@ def _uninterrupted(
     start = time.perf_counter()
     validating = 0.0
     latest: Result | None = None
+    unpriced: MissingNumber | None = None
     outcomes = _search(grounding, query, limits, progress, every_plan)
     while True:
         try:
@@ -259,6 +261,8 @@ def _uninterrupted(
             yield _stopped(latest or no_plan(query, status_of(ending), spent), status_of(ending))
             return
         if outcome is None:
+            if unpriced is not None:
+                raise unpriced
             return
         spent = replace(
             statistics,
@@ -272,7 +276,12 @@ def _uninterrupted(
         if outcome.plan is not None:
             begin = time.perf_counter()
             left = limits.with_grace(SECONDS_TO_VALIDATE)
-            found = validated_and_priced(problem, outcome.plan, query.utility, left)
+            try:
+                found = validated_and_priced(problem, outcome.plan, query.utility, left)
+            except MissingNumber as error:
+                unpriced = error  # a better plan may do without the number
+                continue
+            unpriced = None
             validating += time.perf_counter() - begin
             spent = replace(spent, validate_seconds=validating)
         latest = replace(no_plan(query, outcome.status, spent, outcome.lower_bound), stopped=outcome.stopped)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +16,7 @@ from statehtn.model import (
     CostBlock,
     CostDistribution,
     CostLaw,
+    CostSum,
     GroundAction,
     GroundCostPart,
     GroundEffect,
@@ -22,10 +24,11 @@ from statehtn.model import (
     GroundProblem,
     Problem,
 )
-from statehtn.model.cost_law import UNIT_COST, is_unconditional, sum_of_blocks
+from statehtn.model.cost_law import UNIT_COST, CostWarning, block_law, is_unconditional, sum_of_blocks
 from statehtn.model.costs import Arithmetic, Expression, FunctionTerm
 from statehtn.model.problem import Action
 from statehtn.model.status import Status
+from statehtn.model.unknown_cost import MissingNumber, UnknownCost
 
 STOPPED = {
     _relax.StopReason.TimeLimit: Status.TIME_LIMIT,
@@ -191,7 +194,8 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
 
     Raises:
         LimitReached: a limit was reached, or Ctrl-C.
-        InputError: the cost of a reachable action is not defined, or is no distribution.
+        InputError: the cost of a reachable action is no distribution. What is not defined is taken as 0, with a
+            `CostWarning` (see `statehtn.model.unknown_cost`).
         UnsupportedError: a precondition falls into too many cases.
     """
     encoding = encode(problem, switches.split_methods)
@@ -229,6 +233,7 @@ class _CostLaws:
         self.unit_costs = encoding.problem.domain.has_unit_costs
         self.shared: dict[tuple[int, tuple[int, ...]], CostLaw] = {}
         self.always: dict[int, Blocks] = {}  # by schema: those without condition and variables
+        self.missing: dict[str, MissingNumber] = {}
 
     def all(self) -> tuple[tuple[CostLaw, ...], tuple[CostLaw, ...]]:
         """Return the law of what is always due of every action's cost, and that of every conditional part."""
@@ -248,6 +253,7 @@ class _CostLaws:
             for part in range(*self.handle.cost_parts(number)):
                 blocks = self.read_blocks(self.handle.cost_part_blocks(part))
                 part_laws.append(self.law(number, schema, action, blocks))
+        self.warn_of_missing_numbers()
         return tuple(laws), tuple(part_laws)
 
     def base_law(self, number: int, schema: int, action: Action) -> CostLaw:
@@ -262,10 +268,37 @@ class _CostLaws:
         key = (schema, tuple(index for index, _ in blocks))
         law = self.shared.get(key)
         if law is None:
-            law = sum_of_blocks(action, self.objects(self.handle.action_arguments(number)), blocks, self.values)
+            arguments = self.objects(self.handle.action_arguments(number))
+            try:
+                law = sum_of_blocks(action, arguments, blocks, self.values)
+            except MissingNumber:
+                law = self.known_part(action, arguments, blocks)
             if all(_is_the_same_for_all(action.costs[index]) for index, _ in blocks):
                 self.shared[key] = law
         return law
+
+    def known_part(self, action: Action, arguments: tuple[str, ...], blocks: Blocks) -> CostLaw:
+        """Return the law of the blocks that need no missing number, and that of one that does."""
+        known: Blocks = []
+        laws: list[CostLaw] = []
+        for index, objects in blocks:
+            try:
+                block_law(action.costs[index], action, arguments, objects, self.values)
+            except MissingNumber as error:
+                self.missing.setdefault(error.message, error)
+                laws = [UnknownCost(error=error)]
+            else:
+                known.append((index, objects))
+        if known:
+            laws.append(sum_of_blocks(action, arguments, known, self.values))
+        return CostSum(tuple(laws)) if len(laws) > 1 else laws[0]
+
+    def warn_of_missing_numbers(self) -> None:
+        if self.missing:
+            first = next(iter(self.missing.values()))
+            others = f" ({len(self.missing) - 1} more like it)" if len(self.missing) > 1 else ""
+            until = "this cost is taken as 0, which is an error only if the best plan has it"
+            warnings.warn(f"{first}; {until}{others}", CostWarning, stacklevel=2)
 
     def read_blocks(self, record: list[int]) -> Blocks:
         blocks = []

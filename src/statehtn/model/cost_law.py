@@ -18,6 +18,7 @@ from statehtn.model.costs import Arithmetic, CostBlock, Expression, FunctionTerm
 from statehtn.model.formula import TRUE
 from statehtn.model.law import CostLaw, is_of_scipy
 from statehtn.model.problem import Action
+from statehtn.model.unknown_cost import MissingNumber
 
 UNIT_COST = CostDistribution.certain(1.0)
 """What every action costs where the domain states no costs at all."""
@@ -47,7 +48,7 @@ def evaluate(expression: Expression, bindings: Mapping[str, str], values: Functi
         values: the function values of `:init`.
 
     Raises:
-        InputError: `:init` does not define the value of a function that is needed.
+        MissingNumber: `:init` does not define the value of a function that is needed.
     """
     match expression:
         case Number(value):
@@ -56,7 +57,7 @@ def evaluate(expression: Expression, bindings: Mapping[str, str], values: Functi
             key = (function, *(bindings.get(term, term) for term in arguments))
             if key not in values:
                 term = f"({' '.join(key)})"
-                raise InputError(f"the value of {term} is needed and not defined; add (= {term} <number>) to :init")
+                raise MissingNumber(f"the value of {term} is not defined; add (= {term} <number>) to :init")
             return values[key]
         case Arithmetic("+", operands):
             return sum((evaluate(operand, bindings, values) for operand in operands), Fraction(0))
@@ -81,8 +82,9 @@ def block_law(
         values: the function values of `:init`.
 
     Raises:
-        InputError: a function value is missing, a cost or probability is negative, or the probabilities sum to more
-            than 1; the message names the ground action.
+        MissingNumber: a function value is missing.
+        InputError: a cost or probability is negative, or the probabilities sum to more than 1. The messages name the
+            ground action.
     """
     part = _block(block, action, arguments, objects, values)
     return part if isinstance(part, CostLaw) else _rounded(part, action, arguments)
@@ -195,7 +197,7 @@ def _block(
             _check("a probability", probability)
             _check("a cost", cost)
         except InputError as error:
-            raise InputError(f"the cost of {_name(action, arguments)}: {error.message}", block.place) from None
+            raise type(error)(f"the cost of {_name(action, arguments)}: {error.message}", block.place) from None
         if probability:
             law[cost] = law.get(cost, Fraction(0)) + probability
     return _completed(law, block, action, arguments)
