@@ -25,7 +25,7 @@ DOMAIN = """(define (domain crossing) (:types bank) (:predicates (here ?b - bank
   (when (storm) (probabilistic (risk) (increase (total-cost) (delay))))))
 (:action walk :parameters (?a ?b - bank) :precondition (here ?a) :effect (and (not (here ?a)) (here ?b)
   (increase (total-cost) (toll ?b)))))"""
-FARE = "the cost of (sail right right): the value of (fare right right) is not defined; add (= (fare right right) <number>) to"
+FARE = "the cost of (sail right right): the value of (fare right right) is not defined; add"
 
 
 def crossing(init: str) -> Problem:
