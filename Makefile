@@ -28,7 +28,7 @@ demo: $(VENV)/.installed  ## plan for a vehicle that avoids, ignores and seeks r
 	@$(RUN) examples/demo.py $(AV)
 
 test: $(VENV)/.installed $(VENV)/.test-tools  ## run the whole test suite (with more random examples where CI is set)
-	$(RUN) -m pytest -n auto --hypothesis-profile=$(HYPOTHESIS_PROFILE) $(PYTEST_OPTIONS)
+	$(RUN) -m pytest -n auto --dist worksteal --hypothesis-profile=$(HYPOTHESIS_PROFILE) $(PYTEST_OPTIONS)
 
 lint: $(VENV)/.installed $(VENV)/.test-tools $(VENV)/.lint-tools $(VENV)/.nox-tools  ## check style, types, layers and formatting
 	$(NOX) lint

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
+import sys
+import tarfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import nox
@@ -13,6 +17,7 @@ nox.options.sessions = ["lint", "tests"]
 nox.options.reuse_existing_virtualenvs = True
 
 PROJECT = nox.project.load_toml("pyproject.toml")
+PYTHONS = ["3.11", "3.12", "3.13", "3.14", "3.15"]
 PYTHON_FILES = ["src", "tests", "examples", "docs/site", "noxfile.py"]
 
 
@@ -97,8 +102,113 @@ def tidy(session: nox.Session) -> None:
     session.run("clang-tidy", "--quiet", "-p", "build/dev", *sources)
 
 
-@nox.session(python=["3.11", "3.12", "3.13", "3.14"])
+@nox.session(python=PYTHONS)
 def tests(session: nox.Session) -> None:
     """Install the package and run the test suite with one version of Python."""
     session.install(".", *nox.project.dependency_groups(PROJECT, "test"))
     session.run("pytest", *session.posargs)
+
+
+@nox.session(python=["3.11", "3.12"])
+def package(session: nox.Session) -> None:
+    """Build and check source distribution and wheel, install each in an empty environment, and try it there.
+
+    Python 3.11 has a wheel of its own, that of 3.12 is for all later ones: it is tried with those that are installed.
+    The core is compiled twice (some minutes; less with CMAKE_CXX_COMPILER_LAUNCHER=ccache).
+    """
+    session.install("abi3audit", "auditwheel", "build", "twine")
+    folder = Path("build", "package", str(session.python))
+    shutil.rmtree(folder, ignore_errors=True)
+    session.run("python", "-m", "build", "--sdist", "--outdir", str(folder))
+    (source,) = folder.glob("*.tar.gz")
+    unpacked = unpack(session, source)
+    session.run("python", "-m", "pip", "wheel", "--no-deps", "--wheel-dir", str(folder), str(source))
+    (wheel,) = folder.glob("*.whl")
+    session.run("twine", "check", "--strict", str(source), str(wheel))
+    if sys.platform == "linux":
+        session.run("auditwheel", "show", str(wheel))
+    if "abi3" in wheel.name:
+        session.run("abi3audit", "--strict", "--report", str(wheel))
+    if wheel.stat().st_size > LARGEST_WHEEL:
+        session.error(f"{wheel} has {wheel.stat().st_size} bytes")
+    for file, python in ((source, session.python), (wheel, session.python), *((wheel, new) for new in newer(session))):
+        try_out(session, file.resolve(), str(python), unpacked)
+
+
+LARGEST_WHEEL = 5_000_000  # bytes
+
+
+def newer(session: nox.Session) -> Iterator[str]:
+    """Yield the later versions of Python that use this one's wheel and are installed."""
+    for version in PYTHONS[PYTHONS.index(str(session.python)) + 1 :] if session.python != "3.11" else []:
+        found = shutil.which(f"python{version}")
+        # A shim of pyenv may be there without the version that it is for.
+        if found and "Python" in str(session.run(found, "-V", external=True, silent=True, success_codes=range(256))):
+            yield version
+
+
+def unpack(session: nox.Session, source: Path) -> Path:
+    """Unpack a source distribution; it has to have the repository's files, but for those left out on purpose."""
+    temporary = Path(session.create_tmp())
+    with tarfile.open(source) as archive:
+        archive.extractall(temporary, filter="data")
+    unpacked = temporary / source.name.removesuffix(".tar.gz")
+    left_out = tuple(name.removeprefix("/") for name in PROJECT["tool"]["scikit-build"]["sdist"]["exclude"])
+    listed = str(session.run("git", "ls-files", external=True, silent=True)).splitlines()
+    expected = {name for name in listed if not name.startswith(left_out)} | {"PKG-INFO"}
+    found = {path.relative_to(unpacked).as_posix() for path in unpacked.rglob("*") if path.is_file()}
+    if found != expected:
+        session.error(f"the source distribution has other files than the repository: {sorted(found ^ expected)}")
+    return unpacked
+
+
+def try_out(session: nox.Session, file: Path, python: str, unpacked: Path) -> None:
+    """Install a distribution in an empty environment, and run demo and some tests there, beside no other sources."""
+    environment = Path(session.create_tmp(), f"{python}-{file.suffix}").resolve()
+    session.run(f"python{python}", "-m", "venv", "--clear", str(environment), external=True)
+    run = str(environment / "bin" / "python")
+    with session.chdir(unpacked):
+        session.run(run, "-m", "pip", "install", "--quiet", str(file), external=True)
+        av = ("domains/av/domain.hddl", "domains/av/p1.hddl")
+        for agent in (("neutral",), ("averse", "--alpha", "0.9"), ("seeking", "--alpha", "0.9")):
+            session.run(run, "-m", "statehtn", "plan", *av, "--quiet", "--attitude", *agent, external=True)
+        session.run(run, "examples/demo.py", *av, external=True)
+        session.run(run, "-m", "pip", "install", "--quiet", "hypothesis>=6.100", "pytest>=8", external=True)
+        chosen = (
+            "tests/test_minimal.py",
+            "tests/regression",
+            "tests/unit/test_cli.py",
+            "tests/unit/test_missing_libraries.py",
+        )
+        session.run(run, "-m", "pytest", "-q", "-p", "no:cacheprovider", *chosen, external=True)
+
+
+@nox.session
+def verifier(session: nox.Session) -> None:
+    """Have the competitions' verifier check, strictly, a plan from each of their domains that is solved in 10 seconds.
+
+    STATEHTN_VERIFIER names the folder of pandaPIparser.tar.gz, STATEHTN_IPC and STATEHTN_IPC2023 those of the problems
+    of 2020 and 2023. What is not named is looked for in ../shared.
+    """
+    folders = {name: Path(os.environ.get(name, default)).resolve() for name, default in COMPETITION.items()}
+    archive = folders.pop("STATEHTN_VERIFIER") / "pandaPIparser.tar.gz"
+    if missing := [str(path) for path in (archive, *folders.values()) if not path.exists()]:
+        session.skip(f"there is no {', no '.join(missing)}")
+    if missing := [tool for tool in ("g++", "make", "flex", "bison", "gengetopt") if shutil.which(tool) is None]:
+        session.skip(f"{', '.join(missing)} cannot be found (Debian/Ubuntu: apt install {' '.join(missing)})")
+    if session.virtualenv.venv_backend != "none":
+        session.install(".", "hypothesis>=6.100", "pytest>=8", "pytest-xdist>=3.6")
+    program = Path("build", "verifier", "pandaPIparser").resolve()
+    program.parent.mkdir(parents=True, exist_ok=True)
+    session.run("tar", "-xzf", str(archive), "-C", str(program.parent), external=True)
+    session.run("make", "-s", "-C", str(program), external=True, silent=True)
+    env = {name: str(path) for name, path in folders.items()}
+    env["STATEHTN_VERIFIER_PROGRAM"] = str(program / "pandaPIparser")
+    session.run("python", "-m", "pytest", "-n", "auto", "tests/verifier", *session.posargs, env=env, external=True)
+
+
+COMPETITION = {
+    "STATEHTN_VERIFIER": "../shared/verifier",
+    "STATEHTN_IPC": "../shared/ipc",
+    "STATEHTN_IPC2023": "../shared/ipc2023",
+}

@@ -169,8 +169,7 @@ void bind_find_plans(nb::module_& module) {
         .def_ro("cost", &relax::SearchResult::cost)
         .def_ro("decomposition", &relax::SearchResult::decomposition)
         .def_ro("plan", &relax::SearchResult::plan)
-        .def_ro("due_parts", &relax::SearchResult::due_parts)
-        .def_ro("due_part_counts", &relax::SearchResult::due_part_counts);
+        .def_ro("due_parts", &relax::SearchResult::due_parts);
 
     nb::class_<Evaluator>(module, "Evaluator")
         .def(nb::init<const relax::GroundProblem&, const relax::Prices&, relax::HeuristicKind>(), "problem"_a,

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "grounder_formulas.hpp"
 #include "grounder_join.hpp"
 
 namespace relax::grounding {

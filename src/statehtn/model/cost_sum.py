@@ -1,4 +1,4 @@
-"""Costs that are sums of independent parts which no short list of outcomes states."""
+"""Costs that are sums of independent parts which no list of outcomes states."""
 
 from __future__ import annotations
 
@@ -15,26 +15,27 @@ if TYPE_CHECKING:
     from numpy.random import Generator
     from numpy.typing import NDArray
 
-
-MOST_SHOWN = 5  # parts; more are summed up
+    from statehtn.model.total_cost import TotalCost
 
 
 @dataclass(frozen=True)
 class CostSum(CostLaw):
-    """The sum of independent costs: one of them is continuous, or together they have many outcomes.
+    """The sum of independent costs, at least one of them continuous.
 
     Mean, standard deviation and exponential means are sums over the parts, as exact as those. Probabilities, quantiles
-    and the CVaR come from `total`, which is worked out when it is asked for.
+    and the CVaR come from `total`, a law on a grid that knows its error.
     """
 
     parts: tuple[CostLaw, ...]
 
     @cached_property
-    def total(self) -> CostLaw:
-        """The law of the sum: exact, or on a grid with bounds on its error; see `statehtn.model.total_cost`."""
-        from statehtn.model.total_cost import total_cost
+    def total(self) -> TotalCost:
+        """The law of the sum on a grid, with bounds on its error."""
+        from statehtn.model.total_cost import TotalCost, total_cost
 
-        return total_cost(self.parts)
+        found = total_cost(self.parts)
+        assert isinstance(found, TotalCost)  # there is a continuous part
+        return found
 
     @property
     def mean(self) -> float:
@@ -89,8 +90,6 @@ class CostSum(CostLaw):
         return self.total.curve(points)
 
     def __str__(self) -> str:
-        if len(self.parts) > MOST_SHOWN:
-            return f"{len(self.parts)} independent parts, from {self.least:g} to {self.most:g}"
         return " + ".join(map(str, self.parts))
 
 
