@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -91,6 +92,14 @@ relax::SearchResult find_plans(const relax::GroundProblem& problem, const relax:
     return relax::search(problem, checked(problem, prices), options, limits, statistics);
 }
 
+std::vector<relax::ActionId> executed_actions(const relax::SearchResult& result) {
+    std::vector<relax::ActionId> actions;
+    for (const std::uint32_t leaf : result.plan) {
+        actions.push_back(result.decomposition[leaf].task);
+    }
+    return actions;
+}
+
 }  // namespace
 
 void bind_find_plans(nb::module_& module) {
@@ -169,7 +178,8 @@ void bind_find_plans(nb::module_& module) {
         .def_ro("cost", &relax::SearchResult::cost)
         .def_ro("decomposition", &relax::SearchResult::decomposition)
         .def_ro("plan", &relax::SearchResult::plan)
-        .def_ro("due_parts", &relax::SearchResult::due_parts);
+        .def_ro("due_parts", &relax::SearchResult::due_parts)
+        .def_prop_ro("actions", &executed_actions);
 
     nb::class_<Evaluator>(module, "Evaluator")
         .def(nb::init<const relax::GroundProblem&, const relax::Prices&, relax::HeuristicKind>(), "problem"_a,

@@ -94,7 +94,7 @@ bool Portfolio::take_turn(Member& member, std::uint64_t work) {
             return true;
         }
         member.has_given_up = member.statistics.size() == member.stages.size();
-        if (member.has_given_up && greedy_ == nullptr) {
+        if (member.has_given_up && &member != greedy_) {
             return true;
         }
         member.done = member.work();

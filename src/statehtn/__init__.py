@@ -23,9 +23,8 @@ if TYPE_CHECKING:
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
     from statehtn.core.heuristics import HEURISTICS
-    from statehtn.core.progress import Progress
+    from statehtn.core.progress import Progress, TopProgress
     from statehtn.core.stages import SEARCHES
-    from statehtn.core.top_plans import TopProgress
     from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
     from statehtn.hddl.plan_format import read_plan, write_plan
     from statehtn.interop import (
@@ -109,9 +108,8 @@ _MODULES_FOR_LATER = {
     "build.cost_file": ("read_costs",),
     "build.cost_table": ("CostTable",),
     "core.heuristics": ("HEURISTICS",),
-    "core.progress": ("Progress",),
+    "core.progress": ("Progress", "TopProgress"),
     "core.stages": ("SEARCHES",),
-    "core.top_plans": ("TopProgress",),
     "hddl": ("HddlWarning", "read_hddl", "read_hddl_text", "write_hddl"),
     "hddl.plan_format": ("read_plan", "write_plan"),
     "interop": (

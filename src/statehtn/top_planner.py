@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 from typing import Literal, cast
 
 from statehtn.core.heuristics import HEURISTICS, why_refused
-from statehtn.core.top_plans import DISTINCT, TopOutcome, TopProgress, find_top_plans
+from statehtn.core.progress import TopProgress
+from statehtn.core.top_plans import DISTINCT, TopOutcome, find_top_plans
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import UsageError
 from statehtn.expected import function, one_of, whole_number
@@ -183,10 +184,11 @@ def _solve(
     found, stopped = _validated(problem, query.utility, outcome, limits)
     plans = tuple(_ranked(found, outcome.proven, query.utility))
     statistics = replace(statistics, validate_seconds=time.perf_counter() - begin)
-    if stopped is not None:
-        status = Status.SOLVED if plans else stopped
+    if plans:
+        is_proven = outcome.is_all or outcome.proven == len(outcome.plans)
+        status = Status.OPTIMAL if is_proven and stopped is None else Status.SOLVED
     else:
-        status = Status.OPTIMAL if plans else Status.UNSOLVABLE
+        status = stopped or Status.UNSOLVABLE
     return replace(
         no_plans(query, status, statistics),
         stopped=stopped,

@@ -7,8 +7,7 @@ import time
 from types import TracebackType
 
 from statehtn.cli.streams import show_progress
-from statehtn.core.progress import Progress
-from statehtn.core.top_plans import TopProgress
+from statehtn.core.progress import Progress, TopProgress
 from statehtn.planner import ProgressCallback
 
 SECONDS_BETWEEN_LINES = 0.1

@@ -162,11 +162,14 @@ def _top_rows(result: TopPlans) -> list[tuple[str, str]]:
         return [("status", ENDINGS[result.status]), ("proven", f"no plan {others}")]
     if result.is_all:
         return [("status", "optimal: this problem has no other plans" + _up_to_order(result))]
-    if result.stopped is None:
+    if result.status is Status.OPTIMAL:
         rows = [("status", "optimal: no other plan has a higher expected utility" + _up_to_order(result))]
         gap = result.plans[-1].risk_cost - (result.lower_bound or 0)
         return [*rows, ("proven", f"to within {gap:.1g} of the certainty equivalents (rounding)")] if gap > 0 else rows
-    rows = [("status", f"{TOP_STOPS[result.stopped]} before {result.k} plans were found and proven to be the best")]
+    if result.stopped is None:
+        rows = [("status", "solved: there may be better plans, within the error of the certainty equivalents")]
+    else:
+        rows = [("status", f"{TOP_STOPS[result.stopped]} before {result.k} plans were found and proven to be the best")]
     if result.proven:
         which = "these are" if result.proven == len(result) else f"the first {result.proven} are"
         rows.append(("proven", f"{which} the best"))

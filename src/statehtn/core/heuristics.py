@@ -9,6 +9,7 @@ from types import MappingProxyType
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.pricing import price
+from statehtn.core.scale import Scale
 from statehtn.risk import Utility
 
 
@@ -112,8 +113,9 @@ class HeuristicEvaluator:
     """A heuristic on its own, for states and networks of the caller's choice."""
 
     def __init__(self, grounding: Grounding, utility: Utility, heuristic: str) -> None:
-        self._prices = price(grounding, utility)
-        self._evaluator = _relax.Evaluator(grounding.handle, self._prices.units, HEURISTICS[heuristic].kind)
+        costs = price(grounding, utility)
+        self._scale = Scale.first(costs.bounds())
+        self._evaluator = _relax.Evaluator(grounding.handle, costs.on(self._scale).units, HEURISTICS[heuristic].kind)
 
     @property
     def model_bytes(self) -> int:
@@ -128,4 +130,4 @@ class HeuristicEvaluator:
             tasks: the tasks of the network, with repetitions, numbered likewise.
         """
         units = self._evaluator.evaluate(list(state), list(tasks))
-        return None if units is None else self._prices.cost(units)
+        return None if units is None else self._scale.cost(units)

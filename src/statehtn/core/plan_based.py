@@ -52,4 +52,6 @@ def search_plans(
     options.checks_preconditions = checks_preconditions
     run = StagedRun(grounding, price(grounding, utility), limits, progress)
     run.stage(options)
+    while run.sharpen():
+        run.stage(options)
     return run.outcome()

@@ -24,3 +24,21 @@ class Progress:
     evaluated: int
     lower_bound: float | None
     best: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class TopProgress:
+    """How far a search for several plans has come.
+
+    `lower_bound` is a risk cost in the domain's own unit: all cheaper plans are among the `found`, of which the first
+    `proven` are the best there are. `seconds` count from the beginning of the run; `expanded`, `generated` and
+    `evaluated` are numbers of search nodes.
+    """
+
+    seconds: float
+    expanded: int
+    generated: int
+    evaluated: int
+    lower_bound: float | None
+    found: int
+    proven: int

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import time
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import overload
 
 import statehtn._relax as _relax
-from statehtn.core.grounding import STOPPED, Grounding
+from statehtn.core.grounding import Grounding
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.pricing import price
+from statehtn.core.progress import TopProgress
 from statehtn.core.switches import SearchSwitches
+from statehtn.core.top_run import TopRun
 from statehtn.core.trace import TraceReader
 from statehtn.limits import Limits
 from statehtn.model.plan import Plan
@@ -23,24 +25,6 @@ DISTINCT: Mapping[str, _relax.Distinct] = MappingProxyType(
     {"sequence": _relax.Distinct.Sequence, "multiset": _relax.Distinct.Multiset}
 )
 """When two plans are different: as sequences of actions, or by which actions they have and how many of each."""
-
-
-@dataclass(frozen=True, slots=True)
-class TopProgress:
-    """How far a search for several plans has come.
-
-    `lower_bound` is a risk cost in the domain's own unit: all cheaper plans are among the `found`, of which the first
-    `proven` are the best there are. `seconds` count from the beginning of the run; `expanded`, `generated` and
-    `evaluated` are numbers of search nodes.
-    """
-
-    seconds: float
-    expanded: int
-    generated: int
-    evaluated: int
-    lower_bound: float | None
-    found: int
-    proven: int
 
 
 class TracedPlans(Sequence[Plan]):
@@ -114,8 +98,6 @@ def find_top_plans(
         switches: refinements to leave out (some mean nothing here: see `relax::TopPlansOptions`).
         limits_ways: keep at most k ways to every pair of a state and a network.
     """
-    started = time.monotonic()
-    prices = price(grounding, utility)
     options = _relax.TopPlansOptions()
     options.count = k
     options.distinct = DISTINCT[distinct]
@@ -124,54 +106,18 @@ def find_top_plans(
     search.heuristic = HEURISTICS[heuristic].kind
     switches.apply(search)
     options.search = search
-
-    def cost(units: int | None) -> float | None:
-        return None if units is None else prices.cost(units)
-
-    def report(statistics: _relax.TopPlansStatistics) -> None:
-        assert progress is not None
-        progress(
-            TopProgress(
-                time.monotonic() - started,
-                statistics.expanded,
-                statistics.generated,
-                statistics.evaluated,
-                cost(statistics.lower_bound),
-                statistics.found,
-                statistics.proven,
-            )
-        )
-
-    result = _relax.top_plans(
-        grounding.handle,
-        prices.units,
-        _labels(grounding),
-        options,
-        None if limits.deadline is None else limits.deadline - time.monotonic(),
-        None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
-        None if progress is None else report,
-    )
-    statistics = result.statistics
+    run = TopRun(grounding, price(grounding, utility), options, limits, progress)
+    run.search()
+    while run.sharpen():
+        run.search()
     return TopOutcome(
-        None if result.stop is None else STOPPED[result.stop],
-        TracedPlans(TraceReader(grounding), result.plans),
-        statistics.proven,
-        result.is_all,
-        cost(statistics.lower_bound),
-        statistics.expanded,
-        statistics.generated,
-        statistics.evaluated,
-        statistics.dead_ends,
+        run.stopped,
+        TracedPlans(TraceReader(grounding), [plan.trace for plan in run.plans]),
+        run.proven,
+        run.bound is not None and math.isinf(run.bound),
+        run.lower_bound,
+        sum(one.expanded for one in run.done),
+        sum(one.generated for one in run.done),
+        sum(one.evaluated for one in run.done),
+        sum(one.dead_ends for one in run.done),
     )
-
-
-def _labels(grounding: Grounding) -> list[int | None]:
-    """Return a number for every ground action, the same for the cases of one action; None for an artificial one."""
-    numbers: dict[tuple[int, tuple[int, ...]], int] = {}
-    handle = grounding.handle
-    return [
-        None
-        if grounding.encoding.actions[schema] is None
-        else numbers.setdefault((schema, tuple(handle.action_arguments(action))), len(numbers))
-        for action, schema in enumerate(handle.action_schema)
-    ]

@@ -57,6 +57,11 @@ class Exponential:
         """A product over the actions."""
         return PlanUtility.PRODUCT
 
+    @property
+    def slope(self) -> float:
+        """Alpha of an averse agent, minus alpha of a seeking one: that of the exponential mean which is its price."""
+        return self.alpha if self.attitude == Attitude.AVERSE else -self.alpha
+
     def risk_cost(self, law: CostLaw) -> float:
         """Return the certainty-equivalent cost.
 
@@ -66,7 +71,7 @@ class Exponential:
         Raises:
             InputError: it is infinite, or cannot be computed; never for a list of outcomes.
         """
-        return expect_law(law).exponential_mean(self.alpha if self.attitude == Attitude.AVERSE else -self.alpha)
+        return expect_law(law).exponential_mean(self.slope)
 
     def utility(self, cost: float) -> float:
         """Return the utility of a certain cost: averse `-e^(alpha C) / alpha`, seeking `e^(-alpha C) / alpha`."""
