@@ -179,6 +179,7 @@ void bind_find_plans(nb::module_& module) {
         .def_ro("decomposition", &relax::SearchResult::decomposition)
         .def_ro("plan", &relax::SearchResult::plan)
         .def_ro("due_parts", &relax::SearchResult::due_parts)
+        .def_ro("due_part_counts", &relax::SearchResult::due_part_counts)
         .def_prop_ro("actions", &executed_actions);
 
     nb::class_<Evaluator>(module, "Evaluator")

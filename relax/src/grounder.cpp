@@ -58,7 +58,7 @@ GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& opti
         return unsolvable();
     }
     TaskGraph graph = expand_methods(knowledge, demand, limits);
-    const Expander expander(knowledge);
+    const Expander expander(knowledge, limits);
     Cases cases = make_cases(knowledge, expander, graph, dependents, limits);
     const std::vector<bool> is_initially_true = initial_truth(expander, lifted.predicate_count);
     const std::vector<bool> is_literal_reached = prune(graph, cases, is_initially_true, limits);

@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "grounder_formulas.hpp"
+
 namespace relax::grounding {
 
 namespace {
@@ -14,13 +16,13 @@ struct NormalAction {
     std::vector<Formula> dependents;  // effects, then cost conditions
 };
 
-NormalAction normal_action(const LiftedAction& action) {
-    NormalAction normal{negation_normal_form(action.precondition), {}};
+NormalAction normal_action(const Knowledge& knowledge, const LiftedAction& action) {
+    NormalAction normal{normal_form(knowledge, action.precondition), {}};
     for (const LiftedEffect& effect : action.effects) {
-        normal.dependents.push_back(negation_normal_form(effect.condition));
+        normal.dependents.push_back(normal_form(knowledge, effect.condition));
     }
     for (const LiftedCostCondition& cost : action.cost_conditions) {
-        normal.dependents.push_back(negation_normal_form(cost.condition));
+        normal.dependents.push_back(normal_form(knowledge, cost.condition));
     }
     return normal;
 }
@@ -70,7 +72,7 @@ public:
     Cases make() {
         cases_.cost_alternative_begin.push_back(0);
         for (std::uint32_t action = 0; action < knowledge_.problem.actions.size(); ++action) {
-            const NormalAction normal = normal_action(knowledge_.problem.actions[action]);
+            const NormalAction normal = normal_action(knowledge_, knowledge_.problem.actions[action]);
             const TupleId count = knowledge_.relations[knowledge_.task_relation(action)].size();
             for (TupleId instance = 0; instance < count; ++instance) {
                 limits_.stop_if_reached();

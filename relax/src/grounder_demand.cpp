@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "grounder_formulas.hpp"
+
 namespace relax::grounding {
 
 namespace {
@@ -51,7 +53,7 @@ void narrow(const Knowledge& knowledge, const Formula& conjunct, std::vector<Obj
 
 void narrow_by_formula(const Knowledge& knowledge, const Formula& formula, std::vector<ObjectSet>& sets) {
     std::vector<Formula> conjuncts;
-    split_conjunction(negation_normal_form(formula), conjuncts);
+    split_conjunction(normal_form(knowledge, formula), conjuncts);
     for (const Formula& conjunct : conjuncts) {
         narrow(knowledge, conjunct, sets);
     }

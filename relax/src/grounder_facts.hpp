@@ -44,44 +44,6 @@ struct Knowledge {
     std::vector<bool> shrinks;           // ... false
 };
 
-// The formula with negation in front of atoms, equalities and domains only.
-Formula negation_normal_form(const Formula& formula, bool negated = false);
-
-// Append the formula's top-level conjuncts; expects negation normal form.
-void split_conjunction(const Formula& formula, std::vector<Formula>& conjuncts);
-
-inline bool is_true(const Formula& formula) { return formula.kind == FormulaKind::And && formula.operands.empty(); }
-
-// Append the slots of the formula's variables that none of its quantifiers
-// binds, with repetitions.
-void free_slots(const Formula& formula, std::vector<std::uint32_t>& slots);
-
-// Append the growing predicates that stand without negation in it: those that
-// its relaxed truth waits for.
-void awaited_predicates(const Knowledge& knowledge, const Formula& formula, std::vector<std::uint32_t>& predicates);
-
-// Tell whether the formula (in negation normal form) is true where everything
-// reached so far is true, and everything that can become false is false. Every
-// free variable must be bound; slots of quantified variables are overwritten.
-bool is_relaxed_true(const Knowledge& knowledge, const Formula& formula, Bindings& bindings);
-
-// Call `visit` for every binding of the variables, until it returns true.
-// Returns whether it did.
-template <typename Visit>
-bool any_binding(const Knowledge& knowledge, std::span<const LiftedVariable> variables, Bindings& bindings,
-                 Visit visit) {
-    if (variables.empty()) {
-        return visit();
-    }
-    for (const ObjectId object : knowledge.domains[variables[0].domain].members()) {
-        bindings[variables[0].slot] = object;
-        if (any_binding(knowledge, variables.subspan(1), bindings, visit)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 }  // namespace relax::grounding
 
 #endif

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "grounder_truth.hpp"
+
 namespace relax::grounding {
 
 void Joiner::run(const Rule& rule, const JoinPlan& plan, std::optional<TupleId> given) {
@@ -72,7 +74,7 @@ void Joiner::join(std::size_t at) {
             break;
         }
         case JoinStep::Kind::Test:
-            if (is_relaxed_true(knowledge_, rule_->tests[step.test], bindings_)) {
+            if (is_relaxed_true(knowledge_, limits_, rule_->tests[step.test], bindings_)) {
                 join(at + 1);
             }
             break;

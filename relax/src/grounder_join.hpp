@@ -25,7 +25,7 @@ struct Rule {
     std::vector<const ObjectSet*> domains;  // by slot; null where the patterns restrict it enough
     std::vector<std::uint32_t> head;        // slots
     std::vector<Pattern> patterns;
-    std::vector<Formula> tests;     // in negation normal form; their truth never changes
+    std::vector<Formula> tests;     // in normal form; their truth never changes
     std::optional<Pattern> result;  // what `emit` adds, if nothing else: then one
                                     // binding for each tuple is enough
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "grounder_formulas.hpp"
 #include "grounder_join.hpp"
 
 namespace relax::grounding {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "grounder_truth.hpp"
+
 namespace relax::grounding {
 
 namespace {
@@ -94,7 +96,7 @@ void drop_subsumed(Disjunction& cases) {
     cases = std::move(kept);
 }
 
-Expander::Expander(const Knowledge& knowledge) : knowledge_(knowledge) {
+Expander::Expander(const Knowledge& knowledge, Limits& limits) : knowledge_(knowledge), limits_(limits) {
     begin_.push_back(0);
     for (std::uint32_t predicate = 0; predicate < knowledge.problem.predicate_count; ++predicate) {
         const bool changes = knowledge.grows[predicate] || knowledge.shrinks[predicate];
@@ -159,7 +161,7 @@ Disjunction Expander::expand(const Formula& formula, Bindings& bindings) const {
             [[fallthrough]];
         case FormulaKind::Equals:
         case FormulaKind::InDomain:
-            return truth(is_relaxed_true(knowledge_, formula, bindings));
+            return truth(is_relaxed_true(knowledge_, limits_, formula, bindings));
         case FormulaKind::And: {
             const auto decide = [&](const Formula& operand) { return add_part(operand, kFalse); };
             return std::ranges::any_of(formula.operands, decide) ? kFalse : conjoin(std::move(parts));
@@ -170,11 +172,11 @@ Disjunction Expander::expand(const Formula& formula, Bindings& bindings) const {
         }
         case FormulaKind::Forall: {
             const auto decide = [&] { return add_part(formula.operands[0], kFalse); };
-            return any_binding(knowledge_, formula.variables, bindings, decide) ? kFalse : conjoin(std::move(parts));
+            return Matcher(knowledge_, limits_, formula).any(bindings, decide) ? kFalse : conjoin(std::move(parts));
         }
         case FormulaKind::Exists: {
             const auto decide = [&] { return add_part(formula.operands[0], kTrue); };
-            return any_binding(knowledge_, formula.variables, bindings, decide) ? kTrue : disjoin();
+            return Matcher(knowledge_, limits_, formula).any(bindings, decide) ? kTrue : disjoin();
         }
     }
     return kFalse;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grounder_facts.hpp"
+#include "relax/limits.hpp"
 
 namespace relax::grounding {
 
@@ -48,7 +49,7 @@ void drop_subsumed(Disjunction& cases);
 // predicate, then by tuple.
 class Expander {
 public:
-    explicit Expander(const Knowledge& knowledge);
+    Expander(const Knowledge& knowledge, Limits& limits);
 
     std::uint32_t fact_count() const { return begin_.back(); }
     // The first fact of each predicate that can change; one more entry than there
@@ -61,14 +62,16 @@ public:
     std::optional<std::uint32_t> fact(std::uint32_t predicate, const std::vector<Term>& terms,
                                       const Bindings& bindings) const;
 
-    // Expects negation normal form. What nothing can change vanishes. Slots of
-    // quantified variables are overwritten. Throws CaseLimitExceeded.
+    // Expects normal form. What nothing can change vanishes. Slots of
+    // quantified variables are overwritten. Throws CaseLimitExceeded
+    // and Stopped.
     Disjunction expand(const Formula& formula, Bindings& bindings) const;
 
 private:
     Disjunction expand_atom(const Formula& atom, bool negated, const Bindings& bindings) const;
 
     const Knowledge& knowledge_;
+    Limits& limits_;
     std::vector<std::uint32_t> begin_;
 };
 

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "grounder_formulas.hpp"
 #include "grounder_join.hpp"
 #include "grounder_reachability.hpp"
+#include "grounder_truth.hpp"
 
 namespace relax::grounding {
 
@@ -19,6 +21,7 @@ public:
     ActionReachability(Knowledge& knowledge, const Demand& demand, Limits& limits)
         : knowledge_(knowledge),
           demand_(demand),
+          limits_(limits),
           engine_(knowledge, growing_relations(knowledge, demand), limits,
                   [this](std::uint32_t rule, Bindings& bindings) { emit(rule, bindings); }) {}
 
@@ -103,7 +106,7 @@ private:
     // variables: each would trigger the joins of all others.)
     void add_condition(Rule rule, const Formula& condition, Head head) {
         std::vector<Formula> conjuncts;
-        split_conjunction(negation_normal_form(condition), conjuncts);
+        split_conjunction(normal_form(knowledge_, condition), conjuncts);
         for (Formula& conjunct : conjuncts) {
             const std::size_t awaited = head.awaited.size();
             const auto is_variable = [](Term term) { return term >= 0; };
@@ -127,7 +130,7 @@ private:
 
     void emit(std::uint32_t rule, Bindings& bindings) {
         Head& head = heads_[rule];
-        if (is_true(head.residual) || is_relaxed_true(knowledge_, head.residual, bindings)) {
+        if (is_true(head.residual) || is_relaxed_true(knowledge_, limits_, head.residual, bindings)) {
             derive(head, bindings);
         } else {
             const std::size_t slots = knowledge_.problem.actions[head.action].slot_count;
@@ -201,6 +204,7 @@ private:
 
     Knowledge& knowledge_;
     const Demand& demand_;
+    Limits& limits_;
     std::vector<Head> heads_;  // by rule
     Dependents dependents_;
     JoinEngine engine_;

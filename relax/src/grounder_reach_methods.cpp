@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "grounder_formulas.hpp"
 #include "grounder_join.hpp"
 #include "grounder_method_rule.hpp"
 #include "grounder_reachability.hpp"
@@ -22,7 +23,7 @@ Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t
             {pairs.relation, {method.task_arguments[pairs.first], method.task_arguments[pairs.second]}});
     }
     std::vector<Formula> constraints;
-    split_conjunction(negation_normal_form(method.constraints), constraints);
+    split_conjunction(normal_form(knowledge, method.constraints), constraints);
     for (Formula& constraint : constraints) {
         if (constraint.kind == FormulaKind::Atom) {
             rule.patterns.push_back({constraint.symbol, std::move(constraint.terms)});

@@ -28,16 +28,30 @@ TupleId Relation::add(std::span<const ObjectId> tuple) {
     }
     values_.insert(values_.end(), tuple.begin(), tuple.end());
     table_.add(hash, size_, [this](TupleId other) { return hash_of((*this)[other]); });
-    return size_++;
+    const TupleId fresh = size_++;
+    for (Index& index : indexes_) {
+        if (index.is_complete) {
+            insert(index, fresh);
+        }
+    }
+    return fresh;
 }
 
-IndexId Relation::index_on(const std::vector<std::uint32_t>& positions) {
-    const auto known = std::ranges::find(indexes_, positions, &Index::positions);
+IndexId Relation::index_on(const std::vector<std::uint32_t>& positions) { return index_on(positions, false); }
+
+IndexId Relation::complete_index_on(const std::vector<std::uint32_t>& positions) const {
+    return index_on(positions, true);
+}
+
+IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, bool is_complete) const {
+    const auto known = std::ranges::find_if(
+        indexes_, [&](const Index& index) { return index.is_complete == is_complete && index.positions == positions; });
     const auto id = static_cast<IndexId>(known - indexes_.begin());
     if (known == indexes_.end()) {
         Index index;
         index.positions = positions;
-        for (TupleId tuple = 0; tuple < visible_; ++tuple) {
+        index.is_complete = is_complete;
+        for (TupleId tuple = 0; tuple < (is_complete ? size_ : visible_); ++tuple) {
             insert(index, tuple);
         }
         indexes_.push_back(std::move(index));
@@ -47,7 +61,9 @@ IndexId Relation::index_on(const std::vector<std::uint32_t>& positions) {
 
 void Relation::show_next() {
     for (Index& index : indexes_) {
-        insert(index, visible_);
+        if (!index.is_complete) {
+            insert(index, visible_);
+        }
     }
     ++visible_;
 }
@@ -70,11 +86,13 @@ void Relation::insert(Index& index, TupleId tuple) const {
     if (const auto known = find_key(index, key)) {
         index.older.push_back(index.newest[*known]);
         index.newest[*known] = tuple;
+        ++index.count[*known];
         return;
     }
     const auto fresh = static_cast<std::uint32_t>(index.newest.size());
     index.older.push_back(tuple);
     index.newest.push_back(tuple);
+    index.count.push_back(1);
     index.table.add(hash_of(key), fresh, [&](std::uint32_t other) {
         read_key(index.newest[other]);
         return hash_of(key);
@@ -96,6 +114,11 @@ std::optional<std::uint32_t> Relation::find_key(const Index& index, std::span<co
 std::optional<TupleId> Relation::first(IndexId index, std::span<const ObjectId> key) const {
     const auto found = find_key(indexes_[index], key);
     return found ? std::optional(indexes_[index].newest[*found]) : std::nullopt;
+}
+
+std::size_t Relation::count(IndexId index, std::span<const ObjectId> key) const {
+    const auto found = find_key(indexes_[index], key);
+    return found ? indexes_[index].count[*found] : 0;
 }
 
 std::optional<TupleId> Relation::next(IndexId index, TupleId tuple) const {

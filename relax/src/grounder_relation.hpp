@@ -39,10 +39,14 @@ public:
     // Let joins see the next tuple, or all of them.
     void show_next();
     void show_all();
-    // The visible tuples with these values at the index's positions, newest
-    // first.
+    // The tuples in the index with these values at its positions, newest first.
     std::optional<TupleId> first(IndexId index, std::span<const ObjectId> key) const;
     std::optional<TupleId> next(IndexId index, TupleId tuple) const;
+
+    // The same for all tuples, visible or not: for questions whose answer must not depend on how far joins have come.
+    IndexId complete_index_on(const std::vector<std::uint32_t>& positions) const;
+    // How many tuples have these values; of complete indexes.
+    std::size_t count(IndexId index, std::span<const ObjectId> key) const;
 
     // Counted anew only where the relation has grown since.
     std::size_t distinct_values(std::uint32_t position);
@@ -50,12 +54,15 @@ public:
 private:
     struct Index {
         std::vector<std::uint32_t> positions;
-        IdTable table;                // of keys, numbered in order of arrival
-        std::vector<TupleId> newest;  // by key
-        std::vector<TupleId> older;   // by tuple: the one before with the same key,
-                                      // or the tuple itself
+        bool is_complete = false;          // holds all tuples, not only the visible ones
+        IdTable table;                     // of keys, numbered in order of arrival
+        std::vector<TupleId> newest;       // by key
+        std::vector<std::uint32_t> count;  // by key
+        std::vector<TupleId> older;        // by tuple: the one before with the same key,
+                                           // or the tuple itself
     };
 
+    IndexId index_on(const std::vector<std::uint32_t>& positions, bool is_complete) const;
     void insert(Index& index, TupleId tuple) const;
     std::optional<std::uint32_t> find_key(const Index& index, std::span<const ObjectId> key) const;
 
@@ -64,9 +71,9 @@ private:
     TupleId visible_ = 0;
     std::vector<ObjectId> values_;
     IdTable table_;
-    std::vector<Index> indexes_;
-    TupleId counted_ = 0;                // size at which `distinct_` was counted
-    std::vector<std::size_t> distinct_;  // by position
+    mutable std::vector<Index> indexes_;  // complete ones are made when they are first asked for
+    TupleId counted_ = 0;                 // size at which `distinct_` was counted
+    std::vector<std::size_t> distinct_;   // by position
 };
 
 }  // namespace relax::grounding

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+import math
 import re
 import warnings
 from fractions import Fraction
 
 import pytest
 
-from statehtn.errors import InputError
+from statehtn.errors import InputError, Place
 from statehtn.model import (
     Action,
     Arithmetic,
     Atom,
     CostBlock,
     CostDistribution,
+    CostSum,
     Expression,
     FunctionTerm,
     Number,
     Parameter,
 )
 from statehtn.model.cost_law import CostWarning, action_law, block_law, evaluate
+from statehtn.model.exponential_mean import exponential_mean_of
 
 VALUES = {("slow", "a", "b"): Fraction(6), ("fast", "a", "b"): Fraction(2), ("jam",): Fraction(1, 4)}
 FROM_TO = (Parameter("?a"), Parameter("?b"))
@@ -152,3 +155,48 @@ def test_wrong_external_costs_name_the_ground_action(answer: object, message: st
     with pytest.raises(InputError, match=re.escape("cost of (drive a b)")) as error:
         law_of(CostBlock((), external=lambda *_: answer))  # type: ignore[arg-type,return-value]
     assert message in str(error.value)
+
+
+def test_parts_with_too_many_combinations_stay_parts_and_their_prices_add_up() -> None:
+    def parts(count: int) -> list[CostBlock]:
+        return [block(("0.25", 3**power), ("0.75", 0)) for power in range(count)]
+
+    law = action_law(drive(block((1, 1)), *parts(60), block((1, 2))), ("a", "b"), [], VALUES, unit_costs=False)
+    assert isinstance(law, CostSum)
+    assert len(law.parts) == 61  # what is certain is one part
+    assert str(law) == "61 independent parts, from 3 to 2.11956e+28"
+    assert law.mean == pytest.approx(3 + (3**60 - 1) / 8, rel=1e-15)
+
+    sums = action_law(drive(*parts(10)), ("a", "b"), [], VALUES, unit_costs=False)
+    assert isinstance(sums, CostSum)
+    multiplied = sums.total
+    assert isinstance(multiplied, CostDistribution)
+    assert len(multiplied.outcomes) == 2**10
+    for slope in (0.1, -0.1, 1e-6):
+        assert sums.exponential_mean(slope) == pytest.approx(multiplied.exponential_mean(slope), rel=1e-13)
+    assert sums.standard_deviation == pytest.approx(multiplied.standard_deviation, rel=1e-13)
+    assert sums.quantile(0.9) == multiplied.quantile(0.9)
+
+
+@pytest.mark.parametrize("slope", [1e-12, 0.5, 900.0, -1e-12, -0.5, -900.0])
+def test_many_outcomes_are_priced_as_few_are(slope: float) -> None:
+    costs = [1 + number / 1000 for number in range(1500)]
+    weights = [1.0 + number % 7 for number in range(1500)]
+    law = CostDistribution.of((weight / sum(weights), cost) for weight, cost in zip(weights, costs, strict=True))
+    pieces = []
+    for start in range(0, 1500, 100):
+        probabilities, outcomes = zip(*law.outcomes[start : start + 100], strict=True)
+        weight = math.fsum(probabilities)
+        mean = math.fsum(p * cost for p, cost in law.outcomes[start : start + 100]) / weight
+        pieces.append((weight, exponential_mean_of(probabilities, outcomes, mean, slope)))
+    together = exponential_mean_of(*zip(*pieces, strict=True), law.mean, slope)
+    assert law.exponential_mean(slope) == pytest.approx(together, rel=1e-12)
+
+
+def test_a_cost_that_is_too_large_to_be_added_up_is_an_error_with_its_place() -> None:
+    place = Place("d.hddl", 4, 9)
+    large = CostBlock(((number(1), number(10**300)),), place=place)
+    with pytest.raises(InputError, match=r"d\.hddl:4:9: the cost of \(drive a b\) can be 1e\+300, .* larger unit"):
+        law_of(block((1, 1)), large)
+    with pytest.raises(InputError, match="too large"):
+        action_law(drive(CostBlock((), law=CostDistribution.certain(1e300))), ("a", "b"), [], VALUES, unit_costs=False)

@@ -330,3 +330,21 @@ def test_scipy_and_numpy_are_only_imported_when_they_are_needed() -> None:
     )
     run = subprocess.run([sys.executable, "-c", code, *AV], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "set()"
+
+
+ERRAND = """
+(define (domain errand) (:predicates (there)) (:functions (total-cost) - number)
+  (:action go :parameters () :effect (and (there) (increase (total-cost) 1))))
+"""
+ONE_ERRAND = "(define (problem p) (:domain errand) (:htn :subtasks (go)) (:init))"
+
+
+def test_a_law_of_many_samples_stays_one_object() -> None:
+    law = CostDistribution.from_samples([2 + number / 1000 for number in range(3000)], most=9)
+    problem = statehtn.with_cost(statehtn.read_hddl_text(ERRAND, ONE_ERRAND), "go", law)
+    result = statehtn.plan(problem, attitude="averse", alpha=0.5)
+    assert result.steps[0].law is law
+    text = statehtn.write_hddl(problem)[0]
+    assert text.count("(increase (total-cost)") == 3000
+    again = statehtn.plan(statehtn.read_hddl_text(text, ONE_ERRAND), attitude="averse", alpha=0.5)
+    assert again.risk_cost == pytest.approx(result.risk_cost, rel=1e-12)

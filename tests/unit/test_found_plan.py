@@ -20,14 +20,16 @@ from statehtn.validate import validate
 WALK = """
 (define (domain walk)
   (:requirements :hierarchy :method-preconditions :negative-preconditions)
-  (:predicates (there) (marked ?p))
+  (:predicates (there) (tired) (marked ?p))
   (:task wander :parameters ())
   (:method out :parameters () :task (wander) :precondition (not (there)) :ordered-subtasks (and (go) (wander)))
   (:method home :parameters () :task (wander) :precondition (there) :ordered-subtasks (and (come) (wander)))
   (:method stay :parameters (?p) :task (wander) :precondition (and (marked ?p) (not (there))) :subtasks ())
   (:action go :parameters () :precondition (not (there))
-    :effect (and (there) (probabilistic 0.5 (increase (total-cost) 2) 0.5 (increase (total-cost) 0))))
-  (:action come :parameters () :precondition (there) :effect (and (not (there)) (increase (total-cost) 1))))
+    :effect (and (there) (tired) (when (tired) (increase (total-cost) 4))
+      (probabilistic 0.5 (increase (total-cost) 2) 0.5 (increase (total-cost) 0))))
+  (:action come :parameters () :precondition (there)
+    :effect (and (not (there)) (increase (total-cost) 1) (when (tired) (increase (total-cost) 3)))))
 """
 PROBLEM = """
 (define (problem p) (:domain walk) (:objects a b)
@@ -81,7 +83,11 @@ def test_a_plan_that_is_found_in_time_comes_out_unchecked(
     assert result.status is Status.SOLVED
     assert not result.validated
     assert result.plan == checked.plan
-    assert result.steps == checked.steps  # with the prices of the search
+    assert [priced.step for priced in result.steps] == [priced.step for priced in checked.steps]
+    assert [priced.risk_cost for priced in result.steps] == pytest.approx(
+        [priced.risk_cost for priced in checked.steps]
+    )
+    assert [priced.expected_cost for priced in result.steps] == [1, 4]  # as the search has seen them
     assert result.to_dict()["validated"] is False
     assert result.lower_bound == checked.lower_bound
 

@@ -302,3 +302,55 @@ def test_limits() -> None:
 def test_counts_are_the_domains_own() -> None:
     grounding: Grounding = ground(problem(TRAVEL, init=ROADS))
     assert (grounding.fact_count, grounding.action_count) == (3, 2)
+
+
+@pytest.mark.parametrize("kind", ["exists", "forall"])
+@pytest.mark.parametrize("place", ["action", "method", "effect"])
+def test_quantified_variables_that_are_not_mentioned_need_no_loop(kind: str, place: str) -> None:
+    nested = "".join(f"({kind} (?q{at} - place) " for at in range(60)) + "(wet ?q7)" + ")" * 60
+    wanted = dict.fromkeys(("action", "method", "effect"), "()") | {place: nested}
+    effect = f"(when {nested} (done))" if place == "effect" else "(done)"
+    found = ground(
+        problem(
+            f"""(:task go :parameters ())
+            (:method m :parameters () :task (go) :precondition {wanted["method"]} :ordered-subtasks (a))
+            (:action dry :parameters (?l - place) :effect (not (wet ?l)))
+            (:action a :parameters () :precondition {wanted["action"]} :effect {effect})""",
+            init="(wet l0) (wet l1) (wet l2)",
+            goal="(done)",
+        )
+    )
+    assert found.handle.solvable
+
+
+def test_quantifiers_over_many_objects_are_joined() -> None:
+    """Plain loops would look at 10^9 combinations for each of 1000 actions."""
+    found = ground(
+        problem(
+            """(:task go :parameters ())
+            (:method m :parameters (?l - place) :task (go) :ordered-subtasks (a ?l))
+            (:action dry :parameters (?l - place) :effect (not (wet ?l)))
+            (:action a :parameters (?l - place)
+              :precondition (and
+                (exists (?x ?y ?z - place) (and (road ?x ?y) (road ?y ?z) (wet ?z)))
+                (forall (?x ?y ?z - place) (imply (and (road ?x ?y) (road ?y ?z)) (wet ?z))))
+              :effect (not (wet ?l)))""",
+            init="(road l0 l1) (road l1 l2) (wet l2)",
+            places=1000,
+        )
+    )
+    assert found.handle.action_count == 1000
+
+
+def test_a_limit_holds_in_loops_over_quantified_variables() -> None:
+    pairs = " ".join(f"(not (road ?q{at} ?q{at + 1}))" for at in range(9))
+    variables = " ".join(f"?q{at}" for at in range(10))
+    roads = " ".join(f"(road l{a} l{b})" for a in range(30) for b in range(30))
+    lifted = problem(
+        f"(:action go :parameters () :precondition (forall ({variables} - place) (or {pairs} (wet ?q0) (wet ?q9))))",
+        init=roads + " ".join(f"(wet l{at})" for at in range(30)),
+        places=30,
+    )
+    with pytest.raises(LimitReached) as reached:
+        ground(lifted, Limits.starting_now(0.2))
+    assert reached.value.status is Status.TIME_LIMIT

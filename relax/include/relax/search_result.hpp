@@ -52,7 +52,8 @@ struct SearchResult {
     std::optional<Cost> cost;
     std::vector<DecompositionNode> decomposition;  // parents before children
     std::vector<std::uint32_t> plan;
-    std::vector<CostPartId> due_parts;  // of the actions' costs, in the order in which they were due
+    std::vector<CostPartId> due_parts;           // of the actions' costs, in the order in which they were due
+    std::vector<std::uint32_t> due_part_counts;  // by leaf in `plan`: how many of them are its own
 };
 
 }  // namespace relax

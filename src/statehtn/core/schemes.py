@@ -76,7 +76,8 @@ def method_schemes(problem: Problem, split: bool) -> tuple[list[Guard], list[Sch
         subtasks = _own_subtasks(method.network)
         ordering = method.network.ordering
         if changing:
-            guard = _guard(f"precondition of {method.name}", method.parameters, changing)
+            fixed = (*static, *conjuncts(method.network.constraints))
+            guard = _guard(f"precondition of {method.name}", method.parameters, changing, fixed)
             guards.append(guard)
             first = SchemeSubtask(guard.name, tuple(p.name for p in guard.parameters), None)
             subtasks = (first, *subtasks)
@@ -138,10 +139,35 @@ def _predicates(formula: Formula) -> Iterator[str]:
             yield from _predicates(body)
 
 
-def _guard(name: str, parameters: Sequence[Parameter], condition: Sequence[Formula]) -> Guard:
-    whole = condition[0] if len(condition) == 1 else And(tuple(condition))
-    names = set(free_variables(whole))
-    return Guard(name, tuple(parameter for parameter in parameters if parameter.name in names), whole)
+def _guard(name: str, parameters: Sequence[Parameter], condition: Sequence[Formula], fixed: Sequence[Formula]) -> Guard:
+    """Return the guard with this condition, and whatever else must be true of its variables for good.
+
+    The method demands what is fixed in any case. Without it the guard would be instantiated for every combination of
+    objects for which facts can be true one by one.
+    """
+    names = set(free_variables(And(tuple(condition))))
+    whole = (*condition, *_projections(fixed, names, parameters))
+    own = tuple(parameter for parameter in parameters if parameter.name in names)
+    return Guard(name, own, whole[0] if len(whole) == 1 else And(whole))
+
+
+_MOST_OTHERS = 2  # variables that a projection looks for; each is a join
+
+
+def _projections(fixed: Sequence[Formula], names: set[str], parameters: Sequence[Parameter]) -> Iterator[Formula]:
+    """Yield what formulas say of these variables: formulas tied by others stand together, below `exists`."""
+    rest = [(formula, set(free_variables(formula))) for formula in fixed]
+    while rest:
+        formula, mentioned = rest.pop(0)
+        together = [formula]
+        while tied := next((pair for pair in rest if pair[1] & mentioned - names), None):
+            rest.remove(tied)
+            together.append(tied[0])
+            mentioned |= tied[1]
+        others = tuple(parameter for parameter in parameters if parameter.name in mentioned - names)
+        if mentioned & names and len(others) <= _MOST_OTHERS:
+            whole = together[0] if len(together) == 1 else And(tuple(together))
+            yield Exists(others, whole) if others else whole
 
 
 def _split(scheme: Scheme) -> list[Scheme]:

@@ -6,13 +6,14 @@ A long plan repeats few ground actions and methods: what is the same wherever on
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 from operator import itemgetter
 from typing import cast
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.schemes import Scheme
-from statehtn.model import CostLaw, Decomposition, Plan, Step
+from statehtn.model import CostLaw, CostSum, Decomposition, Plan, Step
 
 
 @dataclass(slots=True)
@@ -132,6 +133,7 @@ class TraceReader:
         self._schemas = grounding.handle.action_schema
         self._parts = {scheme.task for scheme in grounding.encoding.schemes if scheme.is_part}
         self._steps: dict[int, Step | None] = {}  # by ground action; None for artificial ones
+        self._laws: dict[tuple[int, ...], CostLaw] = {}
         self._methods: dict[int, _GroundMethod] = {}
 
     def read(self, result: _relax.SearchResult) -> Plan:
@@ -140,17 +142,17 @@ class TraceReader:
         Artificial actions vanish, a choice between cases of an action becomes the action, and methods that were split
         or applied at once stand as in the domain.
         """
-        nodes = result.decomposition
+        nodes, due = result.decomposition, iter(result.due_parts)
         steps: list[Step] = []
         costs: list[CostLaw] = []
         step_of: dict[int, int] = {}  # by tree node
-        for number in result.plan:
+        for number, count in zip(result.plan, result.due_part_counts, strict=True):
             action = nodes[number].task
             step = self._step(action)
             if step is not None:
                 step_of[number] = len(steps)
                 steps.append(step)
-                costs.append(self._grounding.laws[action])
+                costs.append(self._law(action, tuple(islice(due, count))))
         bindings, children = self._decomposition(nodes, step_of)
         root = tuple(bindings[parameter.name] for parameter in self._grounding.problem.parameters)
         return Plan(tuple(steps), in_order(children), root, tuple(costs))
@@ -186,6 +188,16 @@ class TraceReader:
             objects = self._grounding.objects(self._grounding.handle.action_arguments(action))
             self._steps[action] = None if lifted is None else Step(lifted.name, objects)
         return self._steps[action]
+
+    def _law(self, action: int, due: tuple[int, ...]) -> CostLaw:
+        """Return the law of an action's cost where these parts of it are due."""
+        base = self._grounding.laws[action]
+        if not due:
+            return base
+        law = self._laws.get(due)  # a part belongs to one action
+        if law is None:
+            law = self._laws[due] = CostSum((base, *(self._grounding.part_laws[part] for part in due)))
+        return law
 
     def _method(self, method: int) -> _GroundMethod:
         found = self._methods.get(method)

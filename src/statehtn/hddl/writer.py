@@ -150,6 +150,7 @@ def _cost_block(block: CostBlock, action: Action) -> str:
             f"the cost of action '{action.name}' is a Python callable and cannot be written as HDDL; "
             f"statehtn.tabulate_costs(problem) gives an equivalent problem with numbers"
         )
+    block = block.listed
     if block.law is not None:
         raise UnsupportedError(
             f"the cost of action '{action.name}' is {block.law}, which HDDL cannot state; give the action a list of "

@@ -11,6 +11,7 @@ from statehtn.errors import UnsupportedError, UsageError
 from statehtn.interop.names import Names, vocabulary_of
 from statehtn.model import Action, Arithmetic, CostBlock, Expression, Number, Problem
 from statehtn.model.cost_law import is_unconditional
+from statehtn.model.costs import exact
 
 CostParts = CostPart | Iterable[CostPart]
 """The cost of an action: one part, or several independent ones that add up."""
@@ -68,6 +69,8 @@ def expected_cost(action: Action) -> Expression | None:
                 f"the cost of action '{action.name}' is a Python callable, which a UP metric cannot hold; "
                 f"statehtn.tabulate_costs(problem) turns it into numbers"
             )
+        if block.law is not None:
+            terms.append(Number(exact(block.law.mean)))
         for probability, cost in block.branches:
             match probability, cost:
                 case Number(value), _ if value == ONE:
@@ -93,10 +96,17 @@ def _stateless(action: Action) -> tuple[CostBlock, ...]:
 
 
 def _is_certain(block: CostBlock) -> bool:
-    return block.external is None and len(block.branches) == 1 and block.branches[0][0] == Number(ONE)
+    return (
+        block.law is None
+        and block.external is None
+        and len(block.branches) == 1
+        and block.branches[0][0] == Number(ONE)
+    )
 
 
 def _part(block: CostBlock) -> CostPart:
     if block.external is not None:
         return block.external
+    if block.law is not None:
+        return block.law
     return block.branches[0][1] if _is_certain(block) else Chance(block.branches)

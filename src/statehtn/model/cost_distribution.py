@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate
+from operator import mul
 from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError, UsageError
@@ -113,7 +114,7 @@ class CostDistribution(CostLaw):
     @property
     def mean(self) -> float:
         """The expected cost, in the domain's unit."""
-        return math.fsum(probability * cost for probability, cost in self.outcomes)
+        return math.fsum(map(mul, *zip(*self.outcomes, strict=True)))
 
     @property
     def standard_deviation(self) -> float:
@@ -177,9 +178,9 @@ class CostDistribution(CostLaw):
     def exponential_mean(self, slope: float) -> float:
         """Return `ln E[e^(slope C)] / slope`, between the least and the largest outcome."""
         number(slope, "the slope")
-        probabilities = [probability for probability, _ in self.outcomes]
+        probabilities, costs = zip(*self.outcomes, strict=True)
         mean = min(max(self.mean, self.least), self.most)
-        return exponential_mean_of(probabilities, [cost for _, cost in self.outcomes], mean, slope)
+        return exponential_mean_of(probabilities, costs, mean, slope)
 
     def exponential_mean_error(self, slope: float) -> float:  # noqa: ARG002
         """Return 0: it is exact but for rounding."""

@@ -22,10 +22,17 @@ from statehtn.model.unknown_cost import MissingNumber
 
 UNIT_COST = CostDistribution.certain(1.0)
 """What every action costs where the domain states no costs at all."""
+LARGEST_COST = 1e290
+"""Of an action, in the domain's unit: a plan of a billion billion steps still has a finite cost."""
 LARGEST_SHOWN = 10**300  # a float can hold it
+
+MOST_OUTCOMES = 256
+MOST_PAIRS = 1024
+"""An action whose parts together have more outcomes, or more combinations, has a sum of laws as its law."""
 
 ExactLaw = dict[Fraction, Fraction]
 """A cost distribution in exact numbers: the probability of every cost; the probabilities sum to exactly 1."""
+FREE: ExactLaw = {Fraction(0): Fraction(1)}
 
 
 class CostWarning(UserWarning):
@@ -128,19 +135,43 @@ def sum_of_blocks(
     Raises:
         InputError: as `block_law`.
     """
-    law: ExactLaw = {Fraction(0): Fraction(1)}
+    blocks = list(blocks)
+    exact: list[ExactLaw] = []
     others: list[CostLaw] = []
     for index, objects in blocks:
         part = _block(action.costs[index], action, arguments, objects, values)
         if isinstance(part, CostLaw):
             others.append(part)
         else:
-            law = _convolution(law, part)
-    if not others:
-        return _rounded(law, action, arguments)
-    if law != {Fraction(0): Fraction(1)}:
-        others.append(_rounded(law, action, arguments))
-    return CostSum(tuple(others)) if len(others) > 1 else others[0]
+            exact.append(part)
+    parts = others + [_rounded(law, action, arguments) for law in _merged(exact) if law != FREE or not others]
+    law = CostSum(tuple(parts)) if len(parts) > 1 else parts[0]
+    largest = max((part.most for part in parts if math.isfinite(part.most)), default=0.0)
+    if max(largest, max(part.mean for part in parts)) > LARGEST_COST:
+        raise InputError(
+            f"the cost of {_name(action, arguments)} can be {max(largest, law.mean):g}, and numbers above "
+            f"{LARGEST_COST:g} become too large when the costs of a plan are added up; state costs in a larger unit",
+            next((place for index, _ in blocks if (place := action.costs[index].place) is not None), None),
+        )
+    return law
+
+
+def _merged(laws: list[ExactLaw]) -> list[ExactLaw]:
+    """Return laws with the same sum: one with all outcomes of it where these are few, else the given ones.
+
+    Independent parts need not be multiplied out: their prices add up.
+    """
+    total = FREE
+    for law in laws:
+        if len(total) * len(law) > MOST_PAIRS:
+            break
+        total = _convolution(total, law)
+        if len(total) > MOST_OUTCOMES:
+            break
+    else:
+        return [total]
+    certain = sum((min(law) for law in laws if len(law) == 1), Fraction(0))
+    return [*([{certain: Fraction(1)}] if certain else []), *(law for law in laws if len(law) > 1)]
 
 
 def is_unconditional(block: CostBlock) -> bool:
@@ -201,7 +232,9 @@ def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) ->
             answer = CostDistribution.from_scipy(answer)
         except StateHtnError as error:
             raise type(error)(f"the external cost of {_name(action, arguments)}: {error.message}") from None
-    if isinstance(answer, CostLaw) and not isinstance(answer, CostDistribution):
+    if isinstance(answer, CostLaw) and not (
+        isinstance(answer, CostDistribution) and len(answer.outcomes) <= MOST_OUTCOMES
+    ):
         return answer
     outcomes = answer.outcomes if isinstance(answer, CostDistribution) else ((1.0, answer),)
     law: ExactLaw = {}
@@ -234,9 +267,10 @@ def _convolution(left: ExactLaw, right: ExactLaw) -> ExactLaw:
 
 def _rounded(law: ExactLaw, action: Action, arguments: tuple[str, ...]) -> CostDistribution:
     try:
-        return CostDistribution.of((float(probability), float(cost)) for cost, probability in law.items())
+        outcomes = [(float(probability), float(cost)) for cost, probability in law.items()]
     except OverflowError:
         raise InputError(f"the cost of {_name(action, arguments)} is too large for a floating-point number") from None
+    return CostDistribution.of(outcomes)
 
 
 def _check(what: str, value: Fraction) -> None:

@@ -1,4 +1,4 @@
-"""Costs that are sums of independent parts which no list of outcomes states."""
+"""Costs that are sums of independent parts which no short list of outcomes states."""
 
 from __future__ import annotations
 
@@ -15,27 +15,26 @@ if TYPE_CHECKING:
     from numpy.random import Generator
     from numpy.typing import NDArray
 
-    from statehtn.model.total_cost import TotalCost
+
+MOST_SHOWN = 5  # parts; more are summed up
 
 
 @dataclass(frozen=True)
 class CostSum(CostLaw):
-    """The sum of independent costs, at least one of them continuous.
+    """The sum of independent costs: one of them is continuous, or together they have many outcomes.
 
     Mean, standard deviation and exponential means are sums over the parts, as exact as those. Probabilities, quantiles
-    and the CVaR come from `total`, a law on a grid that knows its error.
+    and the CVaR come from `total`, which is worked out when it is asked for.
     """
 
     parts: tuple[CostLaw, ...]
 
     @cached_property
-    def total(self) -> TotalCost:
-        """The law of the sum on a grid, with bounds on its error."""
-        from statehtn.model.total_cost import TotalCost, total_cost
+    def total(self) -> CostLaw:
+        """The law of the sum: exact, or on a grid with bounds on its error; see `statehtn.model.total_cost`."""
+        from statehtn.model.total_cost import total_cost
 
-        found = total_cost(self.parts)
-        assert isinstance(found, TotalCost)  # there is a continuous part
-        return found
+        return total_cost(self.parts)
 
     @property
     def mean(self) -> float:
@@ -90,6 +89,8 @@ class CostSum(CostLaw):
         return self.total.curve(points)
 
     def __str__(self) -> str:
+        if len(self.parts) > MOST_SHOWN:
+            return f"{len(self.parts)} independent parts, from {self.least:g} to {self.most:g}"
         return " + ".join(map(str, self.parts))
 
 

@@ -6,7 +6,7 @@ Costs are positive and minimised, in the domain's own unit (hours, say). Numbers
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Rational, Real
@@ -117,7 +117,7 @@ class CostBlock:
         external: a Python callable that gives the cost instead of the branches; it gets the action's arguments (object
             names).
         place: where the block stands in a file, for errors that only show in a ground action; None where there is none.
-        law: the cost where no list of outcomes states it, instead of the branches.
+        law: the cost where no short list of outcomes states it, instead of the branches.
     """
 
     branches: tuple[tuple[Expression, Expression], ...]
@@ -127,12 +127,28 @@ class CostBlock:
     place: Place | None = field(default=None, compare=False, repr=False)
     law: CostLaw | None = None
 
+    @property
+    def listed(self) -> CostBlock:
+        """The block with branches in the place of a law that is a list of outcomes."""
+        if not isinstance(self.law, CostDistribution):
+            return self
+        return replace(self, branches=branches_of(self.law), law=None)
+
+
+MOST_BRANCHES = 100
+"""A law with more outcomes is kept as a law: nobody reads so many branches, and exact fractions take their time."""
+
 
 def block_of(law: CostLaw) -> CostBlock:
-    """Return a law as a cost that is always due: by its outcomes where it is a list of them."""
-    if not isinstance(law, CostDistribution):
-        return CostBlock((), law=law)
-    return CostBlock(tuple((Number(exact(probability)), Number(exact(cost))) for probability, cost in law.outcomes))
+    """Return a law as a cost that is always due: by its outcomes where it is a list of few of them."""
+    if isinstance(law, CostDistribution) and len(law.outcomes) <= MOST_BRANCHES:
+        return CostBlock(branches_of(law))
+    return CostBlock((), law=law)
+
+
+def branches_of(law: CostDistribution) -> tuple[tuple[Expression, Expression], ...]:
+    """Return the outcomes of a law as exact branches."""
+    return tuple((Number(exact(probability)), Number(exact(cost))) for probability, cost in law.outcomes)
 
 
 FunctionValues = Mapping[tuple[str, ...], Fraction]

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
 
 LARGEST_EXPONENT = 700.0  # below it, exp and expm1 of a float do not overflow
+MANY = 500  # outcomes, beyond which arrays are faster than lists
 LEAST_CURVATURE = 1e-17  # a smaller slope * (range of the cost) changes no digit of the mean
 
 
@@ -24,7 +30,11 @@ def exponential_mean_of(probabilities: Sequence[float], costs: Sequence[float], 
         return mean
     if not math.isfinite(curvature):
         return largest if slope > 0 else least
-    value = least + _log_mean_exp(probabilities, [slope * (cost - least) for cost in costs]) / slope
+    if len(costs) > MANY:
+        logarithm = _log_mean_exp_of_many(probabilities, costs, slope)
+    else:
+        logarithm = _log_mean_exp(probabilities, [slope * (cost - least) for cost in costs])
+    value = least + logarithm / slope
     # Rounding must not carry the value across its bounds.
     return min(max(value, mean), largest) if slope > 0 else min(max(value, least), mean)
 
@@ -40,3 +50,22 @@ def _log_mean_exp(probabilities: Sequence[float], exponents: Sequence[float]) ->
     logs = [math.log(p) + x for p, x in zip(probabilities, exponents, strict=True)]
     largest = max(logs)
     return largest + math.log(math.fsum(math.exp(value - largest) for value in logs) / total)
+
+
+def _log_mean_exp_of_many(probabilities: Sequence[float], costs: Sequence[float], slope: float) -> float:
+    """Return what `_log_mean_exp` does for the exponents `slope (c - c_0)`; the elements by numpy, the sums exactly."""
+    import numpy
+
+    weights = numpy.array(probabilities)
+    exponents = slope * (numpy.array(costs) - costs[0])
+    if exponents.max() <= LARGEST_EXPONENT:
+        growth = _sum(weights * numpy.expm1(exponents)) / _sum(weights)
+        if growth > -0.5:
+            return math.log1p(growth)
+    logs = numpy.log(weights) + exponents
+    largest = float(logs.max())
+    return largest + math.log(_sum(numpy.exp(logs - largest)) / _sum(weights))
+
+
+def _sum(values: NDArray[float64]) -> float:
+    return math.fsum(values.tolist())
