@@ -225,6 +225,67 @@ def test_malformed_plans_are_input_errors_with_their_line(old: str, new: str, li
     assert (error.value.place.file, error.value.place.line) == ("my.plan", line)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "column", "message"),
+    [
+        ("root 5 4", "  root 5 x", 10, "found 'x'"),
+        ("root 5 4", "root 5   99", 10, "there is no task of number 99"),
+        ("two 6 7 8", "two 6 7 5", 18, "task 5 stands in two places"),
+        ("two 6 7 8", "two [6,7] -8", 20, "found '-8'"),
+        ("1 bring a", " bring a", 2, "found 'bring'"),
+    ],
+)
+def test_the_place_is_that_of_the_word_that_is_named(old: str, new: str, column: int, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)) as error:
+        read_plan(TEXT.replace(old, new), PROBLEM)
+    assert error.value.place is not None
+    assert error.value.place.column == column
+
+
+RAW = """==>
+0 __method_precondition_do-it[a]
+1 fetch[a]
+2 bring[a]
+root 9
+3 errand[a] -> do-it 0 1 2
+9 __top[] -> __top_method 3
+<=="""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place", "name"),
+    [
+        ("", "", "2:3", "__method_precondition_do-it"),
+        ("0 __method_precondition_do-it[a]\n", "", None, ""),
+        ("__method_precondition_do-it[a]", "fetch[b]", None, ""),
+        ("__method_precondition_do-it[a]\n1 fetch[a]", "fetch[a]\n1 __noop[]", "3:3", "__noop"),
+        ("__method_precondition_do-it[a]", "_!rest[a]", "2:3", "_!rest"),
+    ],
+)
+def test_raw_plans_of_another_planner_are_told(old: str, new: str, place: str | None, name: str) -> None:
+    text = RAW.replace(old, new)
+    if place is None:  # an artificial root task alone is seen through
+        text = text.replace("do-it 0 1 2", "do-it 1 2").replace("0 fetch[b]\n", "")
+        assert read_plan(text, PROBLEM).steps == (Step("fetch", ("a",)), Step("bring", ("a",)))
+        return
+    with pytest.raises(InputError) as error:
+        read_plan(text, PROBLEM, "raw.txt")
+    assert str(error.value).startswith(f"raw.txt:{place}: '{name}' is a name that the planner pandaPI makes up")
+    assert "'pandaPIparser -c raw.txt PLAN'" in str(error.value)
+
+
+def test_raw_methods_of_another_planner_are_told() -> None:
+    text = TEXT.replace("day -> two", "day -> <<two;errand[a];do-it;0;-1>")
+    with pytest.raises(InputError, match=r":8:10: '<<two;errand' is a name that the planner pandaPI makes up"):
+        read_plan(text, PROBLEM)
+
+
+def test_names_of_the_domain_may_begin_with_underscores() -> None:
+    domain = Domain("d", actions={"__noop": Action("__noop")})
+    problem = Problem("p", domain, network=network("__noop"))
+    assert read_plan("==>\n0 __noop\nroot 0\n<==", problem).steps == (Step("__noop"),)
+
+
 def test_long_plans() -> None:
     length = 5000
     domain = Domain(

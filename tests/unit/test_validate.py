@@ -291,7 +291,7 @@ def test_an_undefined_cost_is_an_input_error() -> None:
     toll = CostBlock(((Number(Fraction(1)), FunctionTerm("toll")),))
     load = replace(DELIVERY.actions["load"], costs=(toll,))
     problem = replace(PROBLEM, domain=replace(DELIVERY, actions={**DELIVERY.actions, "load": load}))
-    with pytest.raises(InputError, match="the value of \\(toll\\) is needed"):
+    with pytest.raises(InputError, match="the value of \\(toll\\) is not defined"):
         validate(problem, PLAN)
 
 
