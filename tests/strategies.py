@@ -276,7 +276,7 @@ def ordering(draw: Draw, size: int, orders: tuple[str, ...]) -> tuple[tuple[int,
 
 def grounding_switches() -> st.SearchStrategy[GroundingSwitches]:
     """All combinations of the refinements of grounding."""
-    return st.builds(GroundingSwitches, st.booleans(), st.booleans(), st.booleans())
+    return st.builds(GroundingSwitches, *[st.booleans()] * 4)
 
 
 def utilities() -> st.SearchStrategy[Utility]:

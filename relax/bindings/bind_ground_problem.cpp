@@ -16,6 +16,7 @@
 #include "python_limits.hpp"
 #include "relax/ground_problem.hpp"
 #include "relax/grounder.hpp"
+#include "relax/mutexes.hpp"
 #include "relax/totally_ordered_networks.hpp"
 
 namespace nb = nanobind;
@@ -40,12 +41,12 @@ using GroundingResult =
 
 // Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases.
 GroundingResult ground(const relax::LiftedProblem& problem, bool merge_equal, bool replace_single_methods,
-                       std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
+                       bool ask_mutexes, std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
     relax::Limits limits = python_limits(seconds, memory_bytes);
     std::variant<GroundProblem, relax::StopReason, relax::TooManyCasesOf> result;
     {
         const nb::gil_scoped_release no_gil;
-        result = relax::ground(problem, {merge_equal, replace_single_methods}, limits);
+        result = relax::ground(problem, {merge_equal, replace_single_methods, ask_mutexes}, limits);
     }
     if (auto* ground = std::get_if<GroundProblem>(&result)) {
         return std::move(*ground);
@@ -116,6 +117,17 @@ void bind_ground_problem(nb::module_& module) {
         .def("method_positions", &row<&GroundProblem::method_positions>)
         .def("method_ordering", &row<&GroundProblem::method_ordering>);
 
-    module.def("ground", &ground, "problem"_a, "merge_equal"_a, "replace_single_methods"_a, "seconds"_a = nb::none(),
-               "memory_bytes"_a = nb::none());
+    nb::class_<relax::Mutexes>(module, "Mutexes")
+        .def(
+            "__init__",
+            [](relax::Mutexes* self, const GroundProblem& problem) {
+                relax::Limits limits;  // none
+                new (self) relax::Mutexes(problem, limits);
+            },
+            "problem"_a)
+        .def("are_mutex", &relax::Mutexes::are_mutex, "one"_a, "other"_a)
+        .def("is_possible", &relax::Mutexes::is_possible, "action"_a);
+
+    module.def("ground", &ground, "problem"_a, "merge_equal"_a, "replace_single_methods"_a, "ask_mutexes"_a,
+               "seconds"_a = nb::none(), "memory_bytes"_a = nb::none());
 }

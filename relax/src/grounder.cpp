@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "grounder_assembly.hpp"
+#include "grounder_impossible.hpp"
 #include "grounder_pruning.hpp"
 
 namespace relax {
@@ -65,8 +66,12 @@ GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& opti
     if (!graph.is_node_alive[graph.initial]) {
         return unsolvable();
     }
-    return assemble(
+    GroundProblem problem = assemble(
         {knowledge, graph, cases, expander.fact_begin(), is_initially_true, is_literal_reached, options, limits});
+    if (options.ask_mutexes) {
+        problem = without_impossible(std::move(problem), limits);
+    }
+    return problem.solvable ? std::move(problem) : unsolvable();
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ void put(std::vector<Literal>& sorted, Literal literal) {
 }  // namespace
 
 MacroActions::MacroActions(const GroundProblem& problem, Limits& limits)
-    : problem_(problem), mutexes_(problem, limits) {
+    : problem_(problem), mutexes_(Mutexes::of(problem, limits)) {
     intern({});
 }
 
@@ -101,9 +101,7 @@ MacroId MacroActions::compose(ActionId action, MacroId rest) {
 }
 
 // Whether the two never hold together.
-bool MacroActions::contradicts(Literal one, Literal other) const {
-    return one == negation(other) || (one % 2 == 0 && other % 2 == 0 && mutexes_.are_mutex(one / 2, other / 2));
-}
+bool MacroActions::contradicts(Literal one, Literal other) const { return mutexes_->are_mutex(one, other); }
 
 MacroId MacroActions::intern(Macro macro) {
     const std::uint64_t hash_of_it = hash(macro);

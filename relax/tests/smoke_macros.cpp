@@ -70,14 +70,15 @@ bool finds_mutexes(const relax::GroundProblem& problem) {
             }
         }
     }
-    const relax::Mutexes mutexes(problem);
+    relax::Limits limits;
+    const relax::Mutexes mutexes(problem, limits);
     for (relax::FactId one = 0; one <= kInside; ++one) {
         for (relax::FactId other = 0; other <= kInside; ++other) {
             bool together = one == other;
             for (const relax::StateBits& state : reached) {
                 together = together || (relax::holds(state, one) && relax::holds(state, other));
             }
-            if (mutexes.are_mutex(one, other) == together) {
+            if (mutexes.are_mutex(2 * one, 2 * other) == together) {
                 return false;
             }
         }
@@ -101,7 +102,8 @@ std::optional<relax::MacroId> macro_of(relax::MacroActions& macros, const std::v
 
 int main() {
     const relax::GroundProblem problem = make_problem();
-    relax::MacroActions macros(problem);
+    relax::Limits limits;
+    relax::MacroActions macros(problem, limits);
     const auto direct = macro_of(macros, {drive(0, 2)});
     const auto fetch = macro_of(macros, {load(0), drive(0, 1), unload(1)});
     int failed = 0;

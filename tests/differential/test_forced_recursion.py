@@ -108,6 +108,7 @@ def recursions() -> st.SearchStrategy[Recursion]:
     return st.builds(Recursion, actions, st.fixed_dictionaries(dict.fromkeys(TASKS, methods)), initial, literals(1))
 
 
+@pytest.mark.filterwarnings("ignore:.*there is no plan")
 @pytest.mark.parametrize("search", SEARCHES)
 @given(recursion=recursions(), follows=st.booleans())
 def test_recursion_keeps_its_plans(search: str, recursion: Recursion, follows: bool) -> None:

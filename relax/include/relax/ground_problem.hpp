@@ -11,6 +11,7 @@
 // is due, once, where a condition holds in the state before the action. Risk costs of independent parts add up.
 
 #include <cstdint>
+#include <memory>
 #include <ranges>
 #include <utility>
 #include <vector>
@@ -18,6 +19,8 @@
 #include "relax/ids.hpp"
 
 namespace relax {
+
+class Mutexes;
 
 struct GroundProblem {
     // By FactId. Only facts that can change and that something reads or that the initial state holds.
@@ -74,6 +77,7 @@ struct GroundProblem {
 
     std::vector<FactId> initial_state;  // sorted
     TaskId initial_task = 0;
+    std::shared_ptr<const Mutexes> mutexes;  // none where nobody has looked for them
     bool solvable =
         true;  // false: grounding proved that the initial task cannot be accomplished; the rest is then empty
 

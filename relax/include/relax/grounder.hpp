@@ -24,6 +24,8 @@ struct GroundingOptions {
     bool merge_equal = true;
     // Replace tasks of a single method by its subtasks, where that does not copy much.
     bool replace_single_methods = true;
+    // Leave out actions that pairs of facts tell never to be executed, and what is of no use without them.
+    bool ask_mutexes = true;
 };
 
 // Instantiate what the initial task can lead to, and what can be reached, of a lifted problem. Numbering depends on the

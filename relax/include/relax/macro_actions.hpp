@@ -2,6 +2,7 @@
 #define RELAX_MACRO_ACTIONS_HPP
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -47,7 +48,7 @@ private:
     static std::uint64_t hash(const Macro& macro);
 
     const GroundProblem& problem_;
-    Mutexes mutexes_;
+    std::shared_ptr<const Mutexes> mutexes_;
     std::vector<Macro> macros_;  // by MacroId
     IdTable table_;
     std::unordered_map<std::uint64_t, MacroId> composed_;  // by the pair of action and rest

@@ -46,14 +46,16 @@ class GroundingSwitches:
         split_methods: part choices of a method that have nothing to do with each other.
         merge_equal: let equal artificial actions be one, and equal methods of a task.
         replace_single_methods: replace tasks of a single method by its subtasks, where that does not copy much.
+        mutexes: leave out actions whose preconditions never hold together, as far as pairs of facts tell (h^2).
     """
 
     split_methods: bool = True
     merge_equal: bool = True
     replace_single_methods: bool = True
+    mutexes: bool = True
 
 
-PLAIN = GroundingSwitches(split_methods=False, merge_equal=False, replace_single_methods=False)
+PLAIN = GroundingSwitches(split_methods=False, merge_equal=False, replace_single_methods=False, mutexes=False)
 """Tasks and methods as they stand in the domain, one by one."""
 
 
@@ -203,6 +205,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         encoding.handle,
         switches.merge_equal,
         switches.replace_single_methods,
+        switches.mutexes,
         None if limits.deadline is None else limits.deadline - time.monotonic(),
         None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
     )
