@@ -49,7 +49,7 @@ class Difference:
         }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class AttitudeComparison:
     """The plans of several agents for one problem; prints them side by side, with what each would cost the others.
 
@@ -58,6 +58,9 @@ class AttitudeComparison:
     """
 
     results: tuple[Result, ...]
+
+    def __repr__(self) -> str:
+        return f"<comparison of {', '.join(self.agents)}>"
 
     @property
     def agents(self) -> tuple[str, ...]:

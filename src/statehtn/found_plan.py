@@ -12,7 +12,7 @@ from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.model.unknown_cost import refuse_unknown
-from statehtn.result import PricedStep
+from statehtn.result import PricedStep, PricedSteps
 from statehtn.risk import Utility
 from statehtn.validate import validate
 
@@ -32,7 +32,7 @@ class FoundPlan:
     """
 
     plan: Plan
-    steps: tuple[PricedStep, ...]
+    steps: PricedSteps
     stopped: Status | None
 
     @property
@@ -77,7 +77,7 @@ def not_validated(plan: Plan, utility: Utility, stopped: Status) -> FoundPlan:
     return FoundPlan(plan, _priced(plan, plan.costs, utility), stopped)
 
 
-def _priced(plan: Plan, costs: Sequence[CostLaw], utility: Utility) -> tuple[PricedStep, ...]:
+def _priced(plan: Plan, costs: Sequence[CostLaw], utility: Utility) -> PricedSteps:
     """Return the steps with their prices; a law is priced once, and equal steps of one law are one object."""
     known: dict[tuple[object, int], PricedStep] = {}
     prices: dict[int, tuple[float, float]] = {}
@@ -89,4 +89,4 @@ def _priced(plan: Plan, costs: Sequence[CostLaw], utility: Utility) -> tuple[Pri
                 prices[id(law)] = law.mean, utility.risk_cost(law)
             priced = known[step, id(law)] = PricedStep(step, law, *prices[id(law)])
         steps.append(priced)
-    return tuple(steps)
+    return PricedSteps(steps)

@@ -7,16 +7,17 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from statehtn.display.result import result_html, result_text
+from statehtn.display.law import brief
+from statehtn.display.result import result_html, result_text, steps_html
 from statehtn.effort import Statistics
 from statehtn.model.cost_distribution import CostDistribution
 from statehtn.model.law import CostLaw
-from statehtn.model.plan import Plan, Step
+from statehtn.model.plan import MOST_SHOWN, Plan, Step
 from statehtn.model.status import Status
 from statehtn.risk import Utility
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class PricedStep:
     """An action of a plan and what it costs in the state in which it is executed.
 
@@ -31,6 +32,9 @@ class PricedStep:
     law: CostLaw
     expected_cost: float
     risk_cost: float
+
+    def __repr__(self) -> str:
+        return f"<{self.step}: {brief(str(self.law))}; certainty equivalent {self.risk_cost:.6g}>"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entry of `plan` in the JSON object.
@@ -48,7 +52,20 @@ class PricedStep:
         return entry | {"outcomes": None, "law": str(self.law)}
 
 
-@dataclass(frozen=True, slots=True)
+class PricedSteps(tuple[PricedStep, ...]):
+    """The steps of a plan in the order of their execution: a tuple that shows itself in short."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        shown = " ".join(str(priced.step) for priced in self[:MOST_SHOWN])
+        return f"<{len(self)} priced steps{': ' if self else ''}{shown}{' ...' if len(self) > MOST_SHOWN else ''}>"
+
+    def _repr_html_(self) -> str:
+        return steps_html(self)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Result:
     """The result of a planning run; what is not known is None.
 
@@ -74,11 +91,16 @@ class Result:
     solver: str
     heuristic: str
     plan: Plan | None = None
-    steps: Sequence[PricedStep] = ()
+    steps: Sequence[PricedStep] = PricedSteps()
     validated: bool = False
     bound: float | None = None
     statistics: Statistics = field(default_factory=Statistics)
     stopped: Status | None = None
+
+    def __repr__(self) -> str:
+        agent = self.attitude if self.alpha is None else f"{self.attitude} {self.alpha:g}"
+        plan = "no plan" if self.plan is None else f"{self.length} steps, certainty equivalent {self.risk_cost:.10g}"
+        return f"<result for {agent}: {self.status}, {plan}>"
 
     def __bool__(self) -> bool:
         """Tell whether there is a plan."""

@@ -15,7 +15,7 @@ from statehtn.result import PricedStep
 from statehtn.risk import Utility
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class RankedPlan:
     """One of the best plans.
 
@@ -34,6 +34,10 @@ class RankedPlan:
     steps: Sequence[PricedStep]
     utility: Utility
     validated: bool = True
+
+    def __repr__(self) -> str:
+        proven = "" if self.is_proven else ", not proven"
+        return f"<plan {self.rank}: {self.length} steps, certainty equivalent {self.risk_cost:.10g}{proven}>"
 
     @property
     def length(self) -> int:
@@ -75,7 +79,7 @@ class RankedPlan:
         }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class TopPlans(Sequence[RankedPlan]):
     """The best plans, the best first: a sequence of `RankedPlan`, with what is known about it.
 
@@ -109,6 +113,10 @@ class TopPlans(Sequence[RankedPlan]):
 
     def __len__(self) -> int:
         return len(self.plans)
+
+    def __repr__(self) -> str:
+        agent = self.attitude if self.alpha is None else f"{self.attitude} {self.alpha:g}"
+        return f"<{len(self.plans)} plans for {agent}: {self.status}, {self.proven} proven>"
 
     @overload
     def __getitem__(self, index: int) -> RankedPlan: ...

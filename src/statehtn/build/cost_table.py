@@ -54,7 +54,7 @@ class CostEntry:
         return TRUE if not fixed else fixed[0] if len(fixed) == 1 else And(fixed)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class CostTable:
     """Laws of costs by action and arguments; `statehtn.read_costs` reads one from a file.
 
@@ -63,6 +63,9 @@ class CostTable:
     """
 
     entries: tuple[CostEntry, ...]
+
+    def __repr__(self) -> str:
+        return f"<cost table: {len(self.entries)} entries>"
 
     def apply(self, problem: Problem) -> Problem:
         """Return a problem in which actions cost what the entries say; the problem that is given stays as it is.

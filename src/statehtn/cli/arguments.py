@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any
 
+from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
+from statehtn.cli.parser import Parser
 from statehtn.cli.streams import emit
 from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
 from statehtn.core.plan_based import BRANCHES
@@ -16,55 +18,6 @@ from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.query import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
 from statehtn.top_planner import DEFAULT_TOP_HEURISTIC
-
-if TYPE_CHECKING:
-    from _typeshed import SupportsWrite
-
-PLAN_EPILOG = """heuristics:
-  auto       three searches in turn, which share what they prove: with tdg, with lmcut,
-             and with potential-hmax, potential and lmcut one after the other
-{}
-
-exit codes:
-  0 plan found    10 proven unsolvable    20 time limit      30 input error             130 interrupted
-  2 usage         12 search exhausted     21 memory limit    31 unsupported feature
-"""
-
-TOP_EPILOG = """exit codes:
-  0 plans found   10 proven unsolvable    21 memory limit    31 unsupported feature
-  2 usage         20 time limit           30 input error     130 interrupted
-What was found before a limit is printed, with exit code 0; the output says how much of it is proven.
-"""
-
-COMPARE_EPILOG = """suites:
-  paper            what the paper reports: vehicles and satellites, by all solvers
-  satellite-large  satellites of the size at which the paper's planner had no memory left, by all solvers
-  ipc              every problem in a folder (--root), such as the competition's benchmarks
-  FILE.toml        one's own (docs/compare.md)
-The suite says with what its problems are run; settings given here count instead. What a solver does not know is left
-out: --solver state plan --heuristic lmcut tdg are three combinations.
-
-statuses of a run, besides those of 'statehtn plan':
-  input-error, unsupported   its input is wrong, or asks for something that the planner does not do
-  error                      it crashed, or its plan did not pass validation
-  killed                     it overran a limit and did not end of itself, or killed the workers that it ran on
-
-exit codes: 0 every run is recorded, 2 usage, 30 wrong suite, folder or file, 69 no cluster, 74 cannot write,
-130 interrupted
-"""
-
-
-class _Parser(argparse.ArgumentParser):
-    """An argument parser that raises its errors instead of printing them."""
-
-    def error(self, message: str) -> NoReturn:
-        """Raise a `UsageError` for a mistake on the command line."""
-        raise UsageError(f"{message} (see '{self.prog} --help')")
-
-    def print_help(self, file: SupportsWrite[str] | None = None) -> None:
-        """Print the help as everything else is printed: with an error where that cannot be done."""
-        del file
-        emit(self.format_help().rstrip("\n"))
 
 
 class _ShowVersion(argparse.Action):
@@ -84,7 +37,7 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
         UsageError: the command line makes no sense.
         SystemExit: help or the version was asked for and printed.
     """
-    parser = _Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
+    parser = Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(
         dest="command", required=True, metavar="plan|top|validate|compare-attitudes|compare|report|graph"
@@ -96,6 +49,8 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     _add_compare(commands)
     _add_report(commands)
     _add_graph(commands)
+    chosen = next((commands.choices[word] for word in arguments if word in commands.choices), parser)
+    chosen.check_options(arguments)
     return _with_stdin(parser.parse_args(arguments))
 
 
@@ -113,12 +68,12 @@ def _with_stdin(options: argparse.Namespace) -> argparse.Namespace:
     return options
 
 
-def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
+def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "plan",
         help="find the plan with the maximum expected utility",
         description="Find the plan with the maximum expected utility for an agent's attitude to risk, and prove it.",
-        epilog=PLAN_EPILOG.format("\n".join(f"  {name:11}{info.description}" for name, info in HEURISTICS.items())),
+        epilog=plan_epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
@@ -158,7 +113,7 @@ def _add_plan(commands: argparse._SubParsersAction[_Parser]) -> None:
     form.add_argument("--quiet", action="store_true", help="print the plan's actions only, one per line")
 
 
-def _add_top(commands: argparse._SubParsersAction[_Parser]) -> None:
+def _add_top(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "top",
         help="find the K best plans",
@@ -208,7 +163,7 @@ def _add_agent(parser: argparse.ArgumentParser) -> None:
     agent.add_argument("--alpha", type=float, metavar="A", help="how much such an agent cares, per unit of cost")
 
 
-def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
+def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "validate",
         help="check a plan and its decomposition",
@@ -220,7 +175,7 @@ def _add_validate(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser.add_argument("plan", metavar="PLAN", help="plan file")
 
 
-def _add_compare_attitudes(commands: argparse._SubParsersAction[_Parser]) -> None:
+def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "compare-attitudes",
         help="show the plans of several agents side by side",
@@ -245,7 +200,7 @@ def _add_compare_attitudes(commands: argparse._SubParsersAction[_Parser]) -> Non
     parser.add_argument("--json", action="store_true", help="print the comparison as one JSON object")
 
 
-def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
+def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "compare",
         help="run a suite of problems with several settings, and record every run",
@@ -297,7 +252,7 @@ def _add_compare(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser.add_argument("--quiet", action="store_true", help="show no progress and no summary")
 
 
-def _add_report(commands: argparse._SubParsersAction[_Parser]) -> None:
+def _add_report(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "report",
         help="write a page about the results of a comparison",
@@ -310,7 +265,7 @@ def _add_report(commands: argparse._SubParsersAction[_Parser]) -> None:
     parser.add_argument("--output", metavar="FILE.html", required=True, help="the page")
 
 
-def _add_graph(commands: argparse._SubParsersAction[_Parser]) -> None:
+def _add_graph(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "graph",
         help="write the task decomposition graph, or the relaxed model",

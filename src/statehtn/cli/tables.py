@@ -37,7 +37,7 @@ ENDINGS = {
     Status.MEMORY_LIMIT: "memory limit reached before a plan was found",
     Status.INTERRUPTED: "interrupted before a plan was found",
 }
-TOP_STOPS = {
+STOPS = {
     Status.TIME_LIMIT: "time limit reached",
     Status.MEMORY_LIMIT: "memory limit reached",
     Status.INTERRUPTED: "interrupted",
@@ -169,7 +169,7 @@ def _top_rows(result: TopPlans) -> list[tuple[str, str]]:
     if result.stopped is None:
         rows = [("status", "solved: there may be better plans, within the error of the certainty equivalents")]
     else:
-        rows = [("status", f"{TOP_STOPS[result.stopped]} before {result.k} plans were found and proven to be the best")]
+        rows = [("status", f"{STOPS[result.stopped]} before {result.k} plans were found and proven to be the best")]
     if result.proven:
         which = "these are" if result.proven == len(result) else f"the first {result.proven} are"
         rows.append(("proven", f"{which} the best"))
@@ -214,7 +214,8 @@ def _range(laws: Sequence[CostLaw]) -> str:
 
 def _summary_rows(result: Result) -> list[tuple[str, str]]:
     found = result.plan is not None
-    rows = [("status", ENDINGS[result.status])]
+    why = f" ({STOPS[result.stopped]})" if found and result.stopped is not None else ""
+    rows = [("status", ENDINGS[result.status] + why)]
     if found and not result.validated:
         rows.append(("validated", NOT_VALIDATED))
     if found:

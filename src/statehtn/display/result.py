@@ -81,17 +81,27 @@ def result_html(result: ShownResult) -> str:
     return f"<div>{''.join(parts)}</div>"
 
 
+def steps_html(steps: Sequence[ShownStep]) -> str:
+    """Return a table of steps with their costs as HTML for a notebook."""
+    return Table(COLUMNS, _rows(steps)).to_html()
+
+
 def _head(result: ShownResult) -> str:
     agent = result.attitude if result.alpha is None else f"{result.attitude}, alpha {result.alpha:g}"
     return f"status: {result.status} (risk-{agent})"
 
 
 def _table(result: ShownResult) -> Table:
-    rows = [
+    return Table(
+        COLUMNS, _rows(result.steps), ("", "in all", "", _number(result.expected_cost), _number(result.risk_cost))
+    )
+
+
+def _rows(steps: Sequence[ShownStep]) -> list[tuple[str, ...]]:
+    return [
         (str(number), str(priced.step), str(priced.law), _number(priced.expected_cost), _number(priced.risk_cost))
-        for number, priced in enumerate(result.steps, 1)
+        for number, priced in enumerate(steps, 1)
     ]
-    return Table(COLUMNS, rows, ("", "in all", "", _number(result.expected_cost), _number(result.risk_cost)))
 
 
 def _notes(result: ShownResult) -> list[str]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from html import escape
 
 CELL = "padding: 0.1em 0.8em; border: 0"
+MOST_ROWS = 1000  # of a table in HTML
 RULE = "border-top: 1px solid rgba(128, 128, 128, 0.6)"
 
 
@@ -47,12 +48,20 @@ class Table:
     def to_html(self) -> str:
         """Return a `<table>` with its own styles, readable on light and on dark ground; all text is escaped."""
         head = "".join(self._cell("th", column.head, column) for column in self.columns)
-        body = "".join(f"<tr>{self._row(row)}</tr>" for row in self.rows)
+        body = "".join(f"<tr>{self._row(row)}</tr>" for row in self._shown_rows())
         foot = f"<tr>{self._row(self.totals, f'; {RULE}; font-weight: bold')}</tr>" if self.totals else ""
         return (
             f'<table style="border-collapse: collapse; margin: 0.4em 0; color: inherit"><thead><tr>{head}</tr></thead>'
             f"<tbody>{body}{foot}</tbody></table>"
         )
+
+    def _shown_rows(self) -> Sequence[Sequence[str]]:
+        """Return the rows; of very many the first and the last ones, since browsers take long over them."""
+        if len(self.rows) <= MOST_ROWS:
+            return self.rows
+        half = MOST_ROWS // 2
+        gap = ["", f"... {len(self.rows) - 2 * half} more ...", *[""] * len(self.columns)][: len(self.columns)]
+        return [*self.rows[:half], gap, *self.rows[-half:]]
 
     def _row(self, row: Sequence[str], style: str = "") -> str:
         return "".join(self._cell("td", cell, column, style) for cell, column in zip(row, self.columns, strict=True))

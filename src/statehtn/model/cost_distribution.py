@@ -26,7 +26,7 @@ ROUNDING = 1e-12  # of sums of probabilities, which are compared with a level th
 MOST_SHOWN = 5  # longer lists are summed up
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class CostDistribution(CostLaw):
     """The probability distribution of a cost with finitely many outcomes: pairs (probability, cost), sorted by cost.
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 MOST_SHOWN = 5  # parts; more are summed up
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CostSum(CostLaw):
     """The sum of independent costs: one of them is continuous, or together they have many outcomes.
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class DecompositionTree:
     """How a plan comes from the initial network: prints as a tree, shows itself in notebooks, and can be drawn.
 
@@ -37,6 +37,9 @@ class DecompositionTree:
             else:
                 found.append(TreeRow(depth, f"{node + 1}. {self.plan.steps[node]}", is_leaf=True))
         return tuple(found)
+
+    def __repr__(self) -> str:
+        return f"<decomposition tree of {self.plan!r}>"
 
     def __str__(self) -> str:
         return tree_text(self.rows)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
+from statehtn.display.law import brief, law_html
 from statehtn.errors import UsageError
 from statehtn.expected import number
 
@@ -94,6 +95,14 @@ class CostLaw(ABC):
     @abstractmethod
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {brief(str(self))}; mean {self.mean:.6g}>"
+
+    def _repr_html_(self) -> str:
+        names = ("mean", "standard deviation", "least", "most")
+        values = (self.mean, self.standard_deviation, self.least, self.most)
+        return law_html(brief(str(self)), list(zip(names, values, strict=True)), getattr(self, "outcomes", ()))
 
     def plot(self, ax: Axes | None = None, *, label: str | None = None, color: str | None = None) -> Axes:
         """Draw the probability of keeping each budget, by matplotlib (`pip install 'statehtn[plots]'`).

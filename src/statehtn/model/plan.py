@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from statehtn.errors import UsageError
@@ -21,6 +22,9 @@ MOST_RUNS = 1_000_000_000
 """Of a plan that can be simulated at once."""
 
 
+MOST_SHOWN = 5
+
+
 @dataclass(frozen=True, slots=True)
 class Step:
     """A ground primitive task in a plan: the name of its `action`, and its `arguments`, which are names of objects."""
@@ -32,7 +36,7 @@ class Step:
         return f"({' '.join((self.action, *self.arguments))})"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Decomposition:
     """A ground compound task, the method that decomposed it, and what became of the method's subtasks.
 
@@ -47,6 +51,24 @@ class Decomposition:
     children: tuple[int | Decomposition, ...] = ()
     bindings: tuple[str, ...] | None = None
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Decomposition):
+            return NotImplemented
+        # Node by node: decompositions may be deeper than Python's recursion allows.
+        pairs = zip_longest(self.walk(), other.walk())
+        return self is other or all(one and two and one._content() == two._content() for one, two in pairs)
+
+    def __hash__(self) -> int:
+        return hash((self.task, self.arguments, self.method, len(self.children)))
+
+    def _content(self) -> tuple[object, ...]:
+        """Return what this node says itself: of compound subtasks only where they stand."""
+        children = tuple(child if isinstance(child, int) else None for child in self.children)
+        return self.task, self.arguments, self.method, children, self.bindings
+
+    def __repr__(self) -> str:
+        return f"<decomposition of ({' '.join((self.task, *self.arguments))}) by {self.method}>"
+
     def walk(self) -> Iterator[Decomposition]:
         """Yield this node and all compound nodes below it, parents first."""
         pending = [self]
@@ -56,7 +78,7 @@ class Decomposition:
             pending.extend(child for child in reversed(node.children) if isinstance(child, Decomposition))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Plan:
     """A sequence of actions and the decomposition of the initial network that it comes from.
 
@@ -71,6 +93,11 @@ class Plan:
     roots: tuple[int | Decomposition, ...] = ()
     root_bindings: tuple[str, ...] | None = ()
     costs: tuple[CostLaw, ...] | None = field(default=None, compare=False, repr=False)
+
+    def __repr__(self) -> str:
+        shown = [str(step) for step in self.steps[:MOST_SHOWN]]
+        more = ["..."] if len(self.steps) > MOST_SHOWN else []
+        return f"<plan of {len(self.steps)} steps: {' '.join(shown + more)}>"
 
     @property
     def decomposition(self) -> DecompositionTree:

@@ -97,6 +97,9 @@ class Domain:
         """True where no action states a cost: then every action costs 1."""
         return not any(action.costs for action in self.actions.values())
 
+    def __hash__(self) -> int:
+        return hash((self.name, frozenset(self.actions), frozenset(self.methods), frozenset(self.tasks)))
+
     def __repr__(self) -> str:
         counts = f"actions {len(self.actions)}, tasks {len(self.tasks)}, methods {len(self.methods)}"
         return f"<domain '{self.name}': {counts}>"
@@ -147,6 +150,9 @@ class Problem:
             return self.objects_by_type.get(types[0], ())
         wanted = {name for kind in types for name in self.objects_by_type.get(kind, ())}
         return tuple(name for name in self.all_objects if name in wanted)
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.domain, frozenset(self.objects.items()), self.initial_state, self.goal))
 
     def __repr__(self) -> str:
         counts = f"objects {len(self.all_objects)}, facts {len(self.initial_state)}, tasks {len(self.network.subtasks)}"

@@ -23,7 +23,7 @@ class Pricing(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class SampledCost(CostDistribution):
     """The empirical distribution of observed costs, and what the true law may be beyond them.
 

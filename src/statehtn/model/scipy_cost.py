@@ -21,7 +21,7 @@ MOST_OUTCOMES = 100_000
 LEAST_TAIL = 1e-18  # of a discrete law; what is beyond does not count
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ScipyCost(CostLaw):
     """A cost with a distribution of `scipy.stats`: continuous, or Poisson, geometric or negative binomial.
 

@@ -32,7 +32,7 @@ TAIL = 1e-10
 NOISE = 1e-16  # what a fast Fourier transform leaves where there is nothing
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class TotalCost(CostDistribution):
     """The law of a sum of independent costs on a grid: its outcomes stand for all costs near them.
 

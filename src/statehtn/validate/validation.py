@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from statehtn.display.law import brief
+from statehtn.display.validation import validation_html
 from statehtn.limits import Limits
 from statehtn.model.expect import expect_plan, expect_problem, expect_utility
 from statehtn.model.law import CostLaw
@@ -17,7 +19,7 @@ from statehtn.validate.tree import PlanTree
 from statehtn.validate.world import World
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Validation:
     """What the validation of a plan found; true where the plan is valid.
 
@@ -37,6 +39,19 @@ class Validation:
 
     def __bool__(self) -> bool:
         return self.valid
+
+    def __str__(self) -> str:
+        """Say "valid", or "invalid" and why, a reason in each line."""
+        return "valid" if self.valid else "\n- ".join(("invalid:", *self.reasons))
+
+    def __repr__(self) -> str:
+        if self.valid:
+            return f"<validation: valid, {len(self.costs)} steps, expected cost {self.expected_cost:.10g}>"
+        more = f" (and {len(self.reasons) - 1} more reasons)" if len(self.reasons) > 1 else ""
+        return f"<validation: invalid: {brief(self.reasons[0])}{more}>"
+
+    def _repr_html_(self) -> str:
+        return validation_html(self.valid, self.reasons, self.costs)
 
     @property
     def expected_cost(self) -> float:
