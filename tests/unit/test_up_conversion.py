@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+import unified_planning.exceptions as up_exceptions
 import unified_planning.shortcuts as up
 from unified_planning.model.htn import HierarchicalProblem, Method
 from unified_planning.plans import HierarchicalPlan, SequentialPlan
@@ -229,7 +231,7 @@ def test_what_up_cannot_hold() -> None:
     ):
         statehtn.to_unified_planning(replace(problem, domain=replace(domain, methods={"on-foot": wrong})))
     wrong = replace(method, arguments=("b",))
-    with pytest.raises(UnsupportedError, match=r"method 'on-foot' is for \(go b\)"):
+    with pytest.raises(UnsupportedError, match=r"method 'on-foot': it is for \(go b\)"):
         statehtn.to_unified_planning(replace(problem, domain=replace(domain, methods={"on-foot": wrong})))
     types = replace(domain.types, parents={"place": ("object",), "a": (), "b": (), "both": ("a", "b")})
     with pytest.raises(UnsupportedError, match=r"type 'both' has several supertypes \(a, b\)"):
@@ -290,3 +292,71 @@ def test_deep_plans() -> None:
     plan = Plan((statehtn.Step("step"),) * 3000, (node,))
     steps = conversion.plan_to_up(plan).action_plan.actions
     assert len(steps) == 3000
+
+
+KITCHEN = """(define (domain kitchen) (:types cup plate bowl - dish tool)
+(:constants ladle - tool)
+(:predicates (clean ?d - dish) (dry ?t - tool))
+(:task wash :parameters (?d - plate))
+(:task use :parameters (?d - dish))
+(:method m :parameters (?t - tool ?c - cup ?p - plate) :task (wash ?p) :precondition {}
+  :subtasks (rinse ?p) :constraints {})
+(:action rinse :parameters (?p - plate) :effect (clean ?p)))"""
+TABLE = "(define (problem p) (:objects blue - cup round - plate) (:htn :subtasks (wash round)) (:init) (:goal {}))"
+
+
+@pytest.mark.parametrize(
+    ("precondition", "constraint", "solvable"),
+    [
+        ("(not (= ?t ?p))", "()", True),
+        ("(= ?t ?p)", "()", False),
+        ("()", "(not (= ?t ?p))", True),
+        ("()", "(= ?p ?t)", False),
+        ("()", "(or (= ?t ?p) (not (= ?c ?p)))", True),
+        ("(not (= ladle ?p))", "()", True),
+        ("(= round ?p)", "()", True),
+        ("(= ?p ladle)", "()", False),
+        ("(exists (?x - tool) (= ?x ?p))", "()", False),
+        ("(forall (?x - tool) (not (= ?x ?c)))", "(sortof ?t - tool)", True),
+        ("()", "(not (sortof ?p - tool))", True),
+        ("()", "(sortof ?p - tool)", False),
+    ],
+)
+def test_terms_whose_types_share_no_object_are_not_equal(precondition: str, constraint: str, solvable: bool) -> None:
+    ours = statehtn.read_hddl_text(KITCHEN.format(precondition, constraint), TABLE.format("(clean round)"))
+    again = statehtn.from_unified_planning(statehtn.to_unified_planning(ours))
+    assert [statehtn.plan(problem).plan is not None for problem in (ours, again)] == [solvable, solvable]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("()\n  :subtasks", "(new ?q)\n  :subtasks", "method 'm': in (new ?q) a term's type is wider"),
+        (":effect (clean ?p)", ":effect (forall (?q - dish) (new ?q))", "action 'rinse': in (new ?q) a term's type is"),
+        ("(?d - plate)", "(?d - (either plate cup))", "task 'wash': UP has no variables of several types"),
+        ("(new ?p - plate)", "(new ?d - (either cup plate))", "predicate 'new': UP has no variables of several types"),
+    ],
+)
+def test_what_is_not_well_formed_there_is_unsupported_and_has_a_place(old: str, new: str, message: str) -> None:
+    domain = KITCHEN.format("()", "()").replace("?c - cup", "?c - cup ?q - dish")
+    domain = domain.replace("(dry ?t", "(new ?p - plate) (dry ?t")
+    assert old in domain
+    ours = statehtn.read_hddl_text(domain.replace(old, new), TABLE.format("()"))
+    with pytest.raises(UnsupportedError, match=f"^{re.escape(message)}"):
+        statehtn.to_unified_planning(ours)
+
+
+def test_what_unified_planning_refuses_is_unsupported_and_has_a_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise up_exceptions.UPUsageError("for a reason of its own")
+
+    ours = statehtn.read_hddl_text(KITCHEN.format("()", "()"), TABLE.format("()"))
+    for function, place in (
+        ("add_action", "action 'rinse'"),
+        ("add_method", "method 'm'"),
+        ("add_task", "task 'wash'"),
+    ):
+        with monkeypatch.context() as patch:
+            patch.setattr(HierarchicalProblem, function, refuse)
+            with pytest.raises(UnsupportedError, match=f"^{place} cannot be .* for a reason of its own$"):
+                statehtn.to_unified_planning(ours)

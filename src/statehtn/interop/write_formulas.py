@@ -78,10 +78,10 @@ class Writer:
             case Atom(predicate, terms):
                 return self.fluent(predicate, terms)
             case Equals(left, right):
-                return manager.Equals(self.term(left), self.term(right))
+                return self.equality(left, right)
             case OfType(term, types):
                 members = self.things.problem.objects_of(types)
-                return manager.Or(*(manager.Equals(self.term(term), self.term(name)) for name in members))
+                return manager.Or(*(self.equality(term, name) for name in members))
             case Not(operand):
                 return manager.Not(self.formula(operand))
             case And(operands):
@@ -92,6 +92,17 @@ class Writer:
                 inner, bound = self.binding(parameters)
                 quantifier = manager.Exists if isinstance(formula, Exists) else manager.Forall
                 return quantifier(inner.formula(body), *bound)
+
+    def equality(self, left: str, right: str) -> Any:
+        """Return the formula that two terms are equal: false where their types share no object.
+
+        UP compares terms of one tree of types only. Its types have one father each, as ours must have to become types
+        of UP, so that two types without a common ancestor have no common subtype, and no object either.
+        """
+        manager = self.things.manager
+        terms = self.term(left), self.term(right)
+        trees = [set(term.type.ancestors) for term in terms]
+        return manager.FALSE() if trees[0].isdisjoint(trees[1]) else manager.Equals(*terms)
 
     def binding(self, parameters: Iterable[Parameter]) -> tuple[Writer, tuple[Any, ...]]:
         """Return the writer within a quantifier, and UP's variables that it binds."""

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from unified_planning.environment import get_environment
+from unified_planning.exceptions import UPException
 from unified_planning.model import Fluent, InstantaneousAction, Object
 from unified_planning.model.htn import HierarchicalProblem, ParameterizedTask, Task
 from unified_planning.model.htn import Method as UpMethod
@@ -25,7 +27,7 @@ def write_up_problem(problem: Problem) -> tuple[HierarchicalProblem, Vocabulary]
     """Return a problem as one of UP, and the names of its things on both sides.
 
     Raises:
-        UnsupportedError: it has something that UP cannot hold.
+        UnsupportedError: it has something that UP cannot hold; the message says where.
     """
     names = vocabulary_of(problem)
     environment = get_environment()  # UP's task networks know no other
@@ -35,19 +37,35 @@ def write_up_problem(problem: Problem) -> tuple[HierarchicalProblem, Vocabulary]
     _declare_fluents(up, things, names)
     tasks: dict[str, Any] = {}
     for name, action in problem.domain.actions.items():
-        tasks[name] = _action(names.tasks.theirs(name), action, things)
-        up.add_action(tasks[name])
+        with _placed(f"action '{name}'"):
+            tasks[name] = _action(names.tasks.theirs(name), action, things)
+            up.add_action(tasks[name])
     for name, task in problem.domain.tasks.items():
-        tasks[name] = Task(names.tasks.theirs(name), _parameters(task.parameters, things))
-        up.add_task(tasks[name])
+        with _placed(f"task '{name}'"):
+            tasks[name] = Task(names.tasks.theirs(name), _parameters(task.parameters, things))
+            up.add_task(tasks[name])
     for method in problem.domain.methods.values():
-        up.add_method(_method(names.methods.theirs(method.name), method, tasks, things))
-    variables = [up.task_network.add_variable(plain(p.name), things.type_of(p)) for p in problem.parameters]
-    _fill(up.task_network, problem.network, tasks, things.scope(problem.parameters, variables))
-    for goal in _conjuncts(problem.goal):
-        up.add_goal(things.scope((), ()).formula(goal))
+        with _placed(f"method '{method.name}'"):
+            up.add_method(_method(names.methods.theirs(method.name), method, tasks, things))
+    with _placed("the initial network"):
+        variables = [up.task_network.add_variable(plain(p.name), things.type_of(p)) for p in problem.parameters]
+        _fill(up.task_network, problem.network, tasks, things.scope(problem.parameters, variables))
+    with _placed("the goal"):
+        for goal in _conjuncts(problem.goal):
+            up.add_goal(things.scope((), ()).formula(goal))
     up.add_quality_metric(_metric(problem, tasks, things))
     return up, names
+
+
+@contextmanager
+def _placed(where: str) -> Iterator[None]:
+    """Say where something went wrong, and turn UP's exceptions into ours."""
+    try:
+        yield
+    except UnsupportedError as error:
+        raise UnsupportedError(f"{where}: {error.message}", error.place) from None
+    except (UPException, AssertionError) as error:
+        raise UnsupportedError(f"{where} cannot be a part of a problem of unified-planning: {error}") from None
 
 
 def _declare_objects(up: HierarchicalProblem, things: Things, names: Vocabulary) -> None:
@@ -62,17 +80,20 @@ def _declare_fluents(up: HierarchicalProblem, things: Things, names: Vocabulary)
     scope = things.scope((), ())
     fractional = {function for (function, *_), value in problem.function_values.items() if value.denominator != 1}
     for name, signature in problem.domain.predicates.items():
-        kind = types.BoolType()
-        fluent = Fluent(names.fluents.theirs(name), kind, _parameters(signature.parameters, things), up.environment)
-        things.fluents[name] = up.add_fluent(fluent, default_initial_value=False)
+        with _placed(f"predicate '{name}'"):
+            kind = types.BoolType()
+            fluent = Fluent(names.fluents.theirs(name), kind, _parameters(signature.parameters, things), up.environment)
+            things.fluents[name] = up.add_fluent(fluent, default_initial_value=False)
     for name, signature in problem.domain.functions.items():
-        kind = types.RealType() if name in fractional else types.IntType()
-        fluent = Fluent(names.fluents.theirs(name), kind, _parameters(signature.parameters, things), up.environment)
-        things.fluents[name] = up.add_fluent(fluent)
-    for predicate, *arguments in sorted(problem.initial_state):
-        up.set_initial_value(scope.fluent(predicate, arguments), True)
-    for (function, *arguments), value in problem.function_values.items():
-        up.set_initial_value(scope.fluent(function, arguments), value)
+        with _placed(f"function '{name}'"):
+            kind = types.RealType() if name in fractional else types.IntType()
+            fluent = Fluent(names.fluents.theirs(name), kind, _parameters(signature.parameters, things), up.environment)
+            things.fluents[name] = up.add_fluent(fluent)
+    with _placed("the initial state"):
+        for predicate, *arguments in sorted(problem.initial_state):
+            up.set_initial_value(scope.fluent(predicate, arguments), True)
+        for (function, *arguments), value in problem.function_values.items():
+            up.set_initial_value(scope.fluent(function, arguments), value)
 
 
 def _parameters(parameters: Iterable[Parameter], things: Things) -> OrderedDict[str, Any]:
@@ -95,7 +116,7 @@ def _method(name: str, method: Method, tasks: dict[str, Any], things: Things) ->
     up = UpMethod(name, _parameters(method.parameters, things))
     if not all(map(is_variable, method.arguments)):
         shown = f"({' '.join((method.task, *method.arguments))})"
-        raise UnsupportedError(f"method '{method.name}' is for {shown}; UP's methods have parameters there, no objects")
+        raise UnsupportedError(f"it is for {shown}; UP's methods have parameters there, no objects")
     scope = things.scope(method.parameters, up.parameters)
     # As one object: of a task without arguments UP would otherwise take the parameters by name.
     up.set_task(ParameterizedTask(tasks[method.task], *(scope.variables[term] for term in method.arguments)))
@@ -124,7 +145,8 @@ def _metric(problem: Problem, tasks: dict[str, Any], things: Things) -> Any:
     for name, action in problem.domain.actions.items():
         cost = expected_cost(action)
         if cost is not None:
-            costs[tasks[name]] = things.scope(action.parameters, tasks[name].parameters).cost(cost)
+            with _placed(f"the cost of action '{name}'"):
+                costs[tasks[name]] = things.scope(action.parameters, tasks[name].parameters).cost(cost)
     return MinimizeActionCosts(costs, default=0)
 
 
