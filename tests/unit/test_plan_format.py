@@ -233,6 +233,7 @@ def test_malformed_plans_are_input_errors_with_their_line(old: str, new: str, li
         ("two 6 7 8", "two 6 7 5", 18, "task 5 stands in two places"),
         ("two 6 7 8", "two [6,7] -8", 20, "found '-8'"),
         ("1 bring a", " bring a", 2, "found 'bring'"),
+        ("1 bring a", "1 br\x1b[31ming a", 5, "the character U+001B cannot be seen"),
     ],
 )
 def test_the_place_is_that_of_the_word_that_is_named(old: str, new: str, column: int, message: str) -> None:

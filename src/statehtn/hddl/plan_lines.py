@@ -6,10 +6,11 @@ import re
 from dataclasses import dataclass, field
 
 from statehtn.errors import InputError, Place
-from statehtn.hddl.spelling import Spellings
+from statehtn.hddl.spelling import UNSEEN, Spellings
 from statehtn.model.plan import Step
 from statehtn.model.problem import Problem
 
+_UNSEEN = re.compile(f"[{UNSEEN}]")
 _NO_BRACKETS = str.maketrans("()[],", "     ")
 TOP_TASK = "__top"  # some planners print the initial network as a method of a task of this name
 
@@ -138,6 +139,9 @@ def read_lines(text: str, problem: Problem, file: str) -> Lines:
         if not line.words:
             continue
         last = Place(file, number, 1)
+        if inside and (found := _UNSEEN.search(content)):
+            message = f"the character U+{ord(found[0]):04X} cannot be seen and is a part of no name"
+            raise InputError(message, Place(file, number, found.start() + 1))
         if not inside:
             inside = line.words[0] == "==>"
         elif line.words[0] == "<==":
