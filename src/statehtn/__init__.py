@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
-from statehtn.validate import Validation, validate  # a package of this name: its function has to come after it
+from statehtn.validate import Validation  # a package of the name of the function, which has to come after it
+from statehtn.verify import validate
 
 if TYPE_CHECKING:
     __version__: str

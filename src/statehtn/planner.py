@@ -113,6 +113,14 @@ def _improving(results: Iterator[Result], interrupt: OnInterrupt) -> Iterator[Re
     returned(result, interrupt)
 
 
+def plan_within(problem: Problem, limits: Limits) -> Result:
+    """Find any plan, or prove that there is none, within limits that have begun."""
+    result = _solve(problem, Query.of(search="greedy"), limits, None, Statistics())
+    if result.status is Status.EXHAUSTED:
+        result = _solve(problem, Query.of(), limits, None, Statistics())
+    return result
+
+
 def plan_files(
     domain: str | os.PathLike[str],
     problem: str | os.PathLike[str],

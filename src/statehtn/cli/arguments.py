@@ -167,12 +167,17 @@ def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "validate",
         help="check a plan and its decomposition",
-        description="Check a plan with its decomposition (IPC 2020 format), independently of the search.",
-        epilog="Exit codes: 0 valid, 1 invalid, 2 usage, 30 input error, 31 unsupported feature.",
+        description="Check a plan with its decomposition (IPC 2020 format), independently of the search; or a list of "
+        "actions, one in each line, for which a decomposition is searched.",
+        epilog="Exit codes: 0 valid, 1 invalid, 2 usage, 20 time limit, 21 memory limit, 30 input error, "
+        "31 unsupported feature.",
         allow_abbrev=False,
     )
     _add_inputs(parser)
-    parser.add_argument("plan", metavar="PLAN", help="plan file")
+    parser.add_argument("plan", metavar="PLAN", help="plan file; - for standard input")
+    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds")
+    parser.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    parser.add_argument("--json", action="store_true", help="print the verdict as one JSON object")
 
 
 def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None:

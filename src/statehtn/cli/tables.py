@@ -76,7 +76,14 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
         shown.append((str(index + 1), str(step), state, *cost))
     columns = (("", True), ("action", False), ("", False), ("cost", False), ("expected", True))
     table = LongTable(columns, shown)
-    rows = [("verdict", "valid")] if validation.valid else [("verdict", "invalid")]
+    verdict = "valid" if validation.valid else "invalid" if validation.stopped is None else "not decided"
+    rows = [("verdict", verdict)]
+    if validation.plan is not None:
+        rows[0] = ("verdict", "valid: these actions have a decomposition")
+        rows += [
+            ("" if number else "found", line)
+            for number, line in enumerate(str(validation.plan.decomposition).split("\n"))
+        ]
     rows += [("because", reason) for reason in validation.reasons]
     if validation.valid:
         rows.append(("expected cost", number(validation.expected_cost)))

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import json
+from typing import Any
 
-from statehtn.cli.exit_codes import ExitCode
+from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.streams import emit
 from statehtn.errors import InputError
-from statehtn.hddl.plan_format import read_plan
-from statehtn.validate import validate
+from statehtn.hddl.action_list import read_actions
+from statehtn.hddl.plan_format import read_plan, write_plan
+from statehtn.limits import LimitReached, Limits
+from statehtn.model import Problem, Step
+from statehtn.validate import Validation
+from statehtn.verify import validate
 
 
 def run_validate(options: argparse.Namespace) -> ExitCode:
@@ -20,11 +26,30 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     """
     from statehtn.cli.tables import readable_validation
 
+    limits = Limits.starting_now(options.time_limit, options.memory_limit)
     problem = read_problem(options)
-    plan = read_plan(_read_text(options.plan), problem, options.plan)
-    validation = validate(problem, plan)
-    emit(readable_validation(validation, plan.steps), raw=True)
+    text = _read_text(options.plan)
+    actions = read_actions(text, problem, options.plan)
+    plan = read_plan(text, problem, options.plan) if actions is None else actions
+    steps = plan if isinstance(plan, tuple) else plan.steps
+    try:
+        validation = validate(problem, plan, limits)
+    except LimitReached as ending:
+        reason = f"the plan is not checked: the {ending.status.value.replace('-', ' ')} was reached before"
+        validation = Validation((reason,), (), stopped=ending.status)
+    if options.json:
+        emit(json.dumps(_object(validation, steps, problem), allow_nan=False))
+    else:
+        emit(readable_validation(validation, steps), raw=True)
+    if validation.stopped is not None:
+        return EXIT_CODES[validation.stopped]
     return ExitCode.SUCCESS if validation.valid else ExitCode.INVALID_PLAN
+
+
+def _object(validation: Validation, steps: tuple[Step, ...], problem: Problem) -> dict[str, Any]:
+    """Return what --json prints: the validation, the actions, and the plan whose decomposition was found."""
+    found = None if validation.plan is None else write_plan(validation.plan, problem)
+    return {**validation.to_dict(), "actions": [str(step) for step in steps], "plan": found}
 
 
 def _read_text(name: str) -> str:

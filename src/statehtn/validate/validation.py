@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from statehtn.display.law import brief
 from statehtn.display.validation import validation_html
 from statehtn.limits import Limits
 from statehtn.model.expect import expect_plan, expect_problem, expect_utility
 from statehtn.model.law import CostLaw
-from statehtn.model.plan import Plan
+from statehtn.model.plan import Plan, Step
 from statehtn.model.problem import Problem
+from statehtn.model.status import Status
 from statehtn.risk import Utility, plan_expected_cost, plan_risk_cost
 from statehtn.validate.decomposition import match_networks
 from statehtn.validate.execution import execute
 from statehtn.validate.ordering import check_ordering
 from statehtn.validate.tree import PlanTree
 from statehtn.validate.world import World
+
+_STEP = re.compile(r"step (\d+) \([^()]*\): ")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -27,10 +33,14 @@ class Validation:
         reasons: what is wrong, each in one sentence; steps are counted from 1. Empty for a valid plan.
         costs: the cost distribution of each step in the state it is executed in, up to the first step that cannot be
             executed.
+        plan: the plan with the decomposition that was found for a list of actions; None for plans that had one.
+        stopped: what ended the search for that before it was done: whether the actions are a plan is not known then.
     """
 
     reasons: tuple[str, ...]
     costs: tuple[CostLaw, ...]
+    plan: Plan | None = None
+    stopped: Status | None = None
 
     @property
     def valid(self) -> bool:
@@ -42,7 +52,18 @@ class Validation:
 
     def __str__(self) -> str:
         """Say "valid", or "invalid" and why, a reason in each line."""
-        return "valid" if self.valid else "\n- ".join(("invalid:", *self.reasons))
+        verdict = "invalid:" if self.stopped is None else "not decided:"
+        return "valid" if self.valid else "\n- ".join((verdict, *self.reasons))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the object that `statehtn validate --json` prints."""
+        return {
+            "valid": None if self.stopped is not None else self.valid,
+            "reasons": list(self.reasons),
+            "stopped": None if self.stopped is None else self.stopped.value,
+            "executed": len(self.costs),
+            "expected_cost": self.expected_cost if self.valid else None,
+        }
 
     def __repr__(self) -> str:
         if self.valid:
@@ -96,4 +117,29 @@ def validate(problem: Problem, plan: Plan, limits: Limits = Limits()) -> Validat
     reasons = [*execution.reasons, *matching.reasons]
     if not matching.reasons:
         reasons += check_ordering(tree, matching, world, execution.history)
-    return Validation(tuple(reasons), execution.costs)
+    return Validation(told_once(reasons), execution.costs)
+
+
+def execute_steps(problem: Problem, steps: Sequence[Step], limits: Limits = Limits()) -> Validation:
+    """Check whether steps can be executed one after the other and reach the goal; decompositions are not looked at.
+
+    Raises:
+        InputError: the cost of a step is not defined.
+        LimitReached: a limit was reached.
+    """
+    execution = execute(Plan(tuple(steps)), World(problem, limits))
+    return Validation(told_once(execution.reasons), execution.costs)
+
+
+def told_once(reasons: Sequence[str]) -> tuple[str, ...]:
+    """Return reasons, each once: what is wrong with several steps is told of the first, with the numbers of others."""
+    by_cause: dict[str, list[str]] = {}
+    for reason in reasons:
+        match = _STEP.match(reason)
+        by_cause.setdefault(reason[match.end() :] if match else reason, []).append(reason)
+    found = []
+    for same in by_cause.values():
+        others = [match[1] for reason in same[1:] if (match := _STEP.match(reason))]
+        more = f" (likewise {len(others)} more: step {', '.join(others[:5])}{' ...' if len(others) > 5 else ''})"
+        found.append(same[0] + (more if others else ""))
+    return tuple(found)

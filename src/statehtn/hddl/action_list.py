@@ -1,0 +1,71 @@
+"""Plans that are lists of actions alone, without a decomposition."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from statehtn.errors import InputError, Place
+from statehtn.hddl.spelling import Spellings
+from statehtn.model.plan import Step
+from statehtn.model.problem import Problem
+
+_ACTION = re.compile(r"(?:[\d.]+\s*:?\s*)?\(([^()]*)\)\s*(?:\[[\d.]+\])?")
+"""`(drive a b)`, also with a number or a time before it, and a duration after it, as planners print them."""
+_NUMBERED = re.compile(r"\d+\s+([^()>\s][^()>]*)")
+"""`0 drive a b`, as in the IPC 2020 format."""
+
+
+def read_actions(text: str, problem: Problem, file: str = "<plan>") -> tuple[Step, ...] | None:
+    """Read a list of actions, one in each line; None if the text is something else, such as a plan with decomposition.
+
+    Comments (`;`), blank lines and a frame of `==>` and `<==` do not matter; nor does the case of letters.
+
+    Args:
+        text: what a planner printed.
+        problem: the problem that the plan is for.
+        file: what to call the text in errors.
+
+    Raises:
+        InputError: a line between actions is none.
+    """
+    lines = [(number, line.split(";", 1)[0].strip()) for number, line in enumerate(text.splitlines(), 1)]
+    shown = [(number, line) for number, line in lines if line and line not in ("==>", "<==")]
+    if any(line.lower().startswith("root") or "->" in line for _, line in shown):
+        return None
+    matches = [(number, line, _ACTION.fullmatch(line) or _NUMBERED.fullmatch(line)) for number, line in shown]
+    if not any(match for _, _, match in matches):
+        return None
+    actions, objects = Spellings(problem.domain.actions), Spellings(problem.all_objects)
+    steps = []
+    for number, line, match in matches:
+        words = match[1].split() if match else []
+        if not words:
+            raise InputError(f"expected an action such as (drive a b), found '{line}'", Place(file, number, 1))
+        steps.append(_step(words, actions, objects))
+    return tuple(steps)
+
+
+def actions_of(lines: Iterable[str | Step], problem: Problem) -> tuple[Step, ...]:
+    """Return actions that are given one by one: steps, or texts such as `(drive a b)`.
+
+    Raises:
+        InputError: one is neither.
+    """
+    actions, objects = Spellings(problem.domain.actions), Spellings(problem.all_objects)
+    steps = []
+    for line in lines:
+        if isinstance(line, Step):
+            steps.append(line)
+            continue
+        words = line.strip().removeprefix("(").removesuffix(")").split() if isinstance(line, str) else []
+        if not words or any(character in word for word in words for character in "()"):
+            raise InputError(f"expected an action such as '(drive a b)', found {line!r}")
+        steps.append(_step(words, actions, objects))
+    return tuple(steps)
+
+
+def _step(words: list[str], actions: Spellings, objects: Spellings) -> Step:
+    """Return a step with the problem's own spelling; names that it does not have are left for the validator."""
+    name, *arguments = words
+    return Step(actions.find(name) or name, tuple(objects.find(word) or word for word in arguments))
