@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from statehtn.expected import items
-from statehtn.hddl.action_list import actions_of
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model import And, Atom, Decomposition, Effect, Equals, Method, Plan, Problem, Signature, Step, Subtask
 from statehtn.model.expect import expect_plan, expect_problem
@@ -72,6 +71,8 @@ def validate(
         limits = Limits.starting_now(time_limit, memory_limit)
     if isinstance(plan, Plan) or not isinstance(plan, list | tuple):
         return validate_plan(problem, expect_plan(plan), limits)
+    from statehtn.hddl.action_list import actions_of  # lists are rare, and the reader takes a moment to import
+
     steps = actions_of(items(plan, "the actions"), problem)
     execution = execute_steps(problem, steps, limits)
     if not execution.valid:
