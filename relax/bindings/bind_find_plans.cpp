@@ -138,6 +138,7 @@ void bind_find_plans(nb::module_& module) {
         .def_rw("more_heuristics", &relax::SearchOptions::more_heuristics)
         .def_rw("members", &relax::SearchOptions::members)
         .def_rw("in_sequence", &relax::SearchOptions::in_sequence)
+        .def_rw("when_due", &relax::SearchOptions::when_due)
         .def_rw("algorithm", &relax::SearchOptions::algorithm)
         .def_rw("weight", &relax::SearchOptions::weight)
         .def_rw("use_tdg_bound", &relax::SearchOptions::use_tdg_bound)

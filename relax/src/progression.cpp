@@ -42,7 +42,8 @@ Progression::Progression(const GroundProblem& problem, Prices prices, std::vecto
       states_(transition_.word_count()),
       networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros, options.in_sequence, limits)),
       branching_(problem),
-      next_(transition_.word_count()) {
+      next_(transition_.word_count()),
+      waits_until_due_(options.when_due && options.skip_dead_methods) {
     for (ActionId action = 0; action < problem.action_count(); ++action) {
         is_void_.push_back(is_void(action));
     }
@@ -66,6 +67,10 @@ StateId Progression::initial_state() {
 }
 
 void Progression::expand(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    if (waits_until_due_) {
+        expand_when_due(state, network, successors);
+        return;
+    }
     if (expand_if_forced(state, network, successors)) {
         return;
     }
@@ -77,10 +82,47 @@ void Progression::expand(StateId state, NetworkId network, std::vector<Successor
     }
 }
 
-bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors) {
+// The successors where methods wait until they are due. Nothing is lost: a method whose first action comes before all
+// its other subtasks can be applied just before that is executed, when the action is applicable and the task
+// unconstrained.
+void Progression::expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    if (execute_at_once(state, network, successors) || decompose_at_once(state, network, successors)) {
+        return;
+    }
+    for (const Occurrence& occurrence : unconstrained_) {
+        if (problem_.is_primitive(occurrence.task)) {
+            if (transition_.is_applicable(occurrence.task, states_[state])) {
+                successors.push_back(execute(state, network, occurrence));
+            }
+            continue;
+        }
+        for (const MethodId method : problem_.methods_of(occurrence.task)) {
+            if (!first_action_[method] || transition_.is_applicable(*first_action_[method], states_[state])) {
+                successors.push_back(decompose(state, network, occurrence, method));
+            }
+        }
+    }
+}
+
+// Decompose a task of whose methods none begins with an action, if one is unconstrained: when does not matter.
+bool Progression::decompose_at_once(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    const auto found = std::ranges::find_if(unconstrained_, [this](const Occurrence& occurrence) {
+        return !problem_.is_primitive(occurrence.task) &&
+               std::ranges::none_of(problem_.methods_of(occurrence.task),
+                                    [this](MethodId method) { return first_action_[method].has_value(); });
+    });
+    if (found == unconstrained_.end()) {
+        return false;
+    }
+    for (const MethodId method : problem_.methods_of(found->task)) {
+        successors.push_back(decompose(state, network, *found, method));
+    }
+    return true;
+}
+
+// Look at the node, and execute an applicable action that can only be in the way, if there is one.
+bool Progression::execute_at_once(StateId state, NetworkId network, std::vector<Successor>& successors) {
     successors.clear();
-    live_methods_.clear();
-    to_execute_.clear();
     unconstrained_.clear();
     networks_->unconstrained(network, unconstrained_);
     work_ += unconstrained_.size();
@@ -89,6 +131,15 @@ bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector
             successors.push_back(execute(state, network, occurrence));
             return true;
         }
+    }
+    return false;
+}
+
+bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    live_methods_.clear();
+    to_execute_.clear();
+    if (execute_at_once(state, network, successors)) {
+        return true;
     }
     compound_ = compound_to_decompose();
     if (compound_) {

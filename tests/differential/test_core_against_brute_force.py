@@ -8,6 +8,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+import statehtn._relax as _relax
 from statehtn import Result, Status, validate
 from statehtn.core.grounding import GroundingSwitches, ground
 from statehtn.core.heuristics import PORTFOLIO
@@ -16,7 +17,7 @@ from statehtn.core.stages import SEARCHES
 from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
 from statehtn.model import Problem
-from statehtn.risk import Utility
+from statehtn.risk import Utility, utility_for
 from tests.differential.oracles import ADMISSIBLE, SECONDS, brute_force, close_to, solve, solve_or_drop
 from tests.strategies import grounding_switches, problems, utilities
 
@@ -127,3 +128,17 @@ def test_greedy_search_finds_a_plan_where_there_is_one(problem: Problem, utility
         assert result.plan is not None
         assert validate(problem, result.plan).valid
         assert result.risk_cost >= optimum * (1 - 1e-9) - 1e-9
+
+
+@given(problem=problems(orders=("none", "partial")), explores=st.booleans())
+def test_methods_that_wait_until_they_are_due_keep_a_plan(problem: Problem, explores: bool) -> None:
+    handle = ground(problem).handle
+    options = _relax.SearchOptions()
+    options.algorithm = _relax.SearchAlgorithm.Greedy
+    options.heuristic = _relax.HeuristicKind.Ff
+    options.explores = explores
+    options.when_due = True
+    prices = _relax.Prices([1] * len(handle.action_schema), [1] * handle.cost_part_count)
+    result = _relax.find_plans(handle, prices, options, seconds=SECONDS)
+    assume(result.status is not _relax.SearchStatus.TimeLimit)
+    assert (result.cost is None) == (brute_force(problem, utility_for("neutral")) is None)

@@ -80,8 +80,33 @@ def doorman(number: int) -> Problem:
     return read_hddl_text(DOORMAN, problem)
 
 
+def chain(number: int) -> Problem:
+    """Errands of which each needs that the next one has been done: the only order is the domain's turned round."""
+    doors = [f"door{index}" for index in range(number)]
+    domain = """
+    (define (domain chain)
+      (:types door)
+      (:predicates (at ?d - door) (served ?d - door) (needs ?d ?e - door))
+      (:task call :parameters (?d - door)) (:task reach :parameters (?d - door))
+      (:method call :parameters (?d ?e - door) :task (call ?d) :precondition (needs ?d ?e)
+        :ordered-subtasks (and (reach ?d) (serve ?d ?e)))
+      (:method stay :parameters (?d - door) :task (reach ?d) :precondition (at ?d) :ordered-subtasks ())
+      (:method move :parameters (?e ?d - door) :task (reach ?d) :precondition (at ?e) :ordered-subtasks (walk ?e ?d))
+      (:action walk :parameters (?e ?d - door) :precondition (at ?e) :effect (and (not (at ?e)) (at ?d)))
+      (:action serve :parameters (?d ?e - door) :precondition (and (at ?d) (needs ?d ?e) (served ?e))
+        :effect (served ?d)))
+    """
+    needs = " ".join(f"(needs {one} {other})" for one, other in zip(doors, [*doors[1:], "office"], strict=True))
+    problem = f"""(define (problem p) (:domain chain) (:objects {" ".join(doors)} office - door)
+        (:htn :subtasks (and {" ".join(f"(call {door})" for door in doors)}))
+        (:init (at door0) (served office) {needs}))"""
+    return read_hddl_text(domain, problem)
+
+
 @pytest.mark.parametrize("search", ["greedy", "anytime"])
-@pytest.mark.parametrize(("problem", "actions"), [(errands(30), 59), (doorman(8), 32)], ids=["errands", "doorman"])
+@pytest.mark.parametrize(
+    ("problem", "actions"), [(errands(30), 59), (doorman(8), 32), (chain(8), 16)], ids=["errands", "doorman", "chain"]
+)
 def test_unordered_tasks_are_done_one_after_the_other(search: str, problem: Problem, actions: int) -> None:
     first = next(improving_plans(ground(problem), utility_for("neutral"), search=search))
     assert first.plan is not None

@@ -38,6 +38,7 @@ struct ProgressionOptions {
     bool use_stubborn_sets = true;  // leave out actions that can wait until others have been executed
     bool use_macros = false;        // actions in a row count as one (TaskNetworks::form)
     bool forget_facts = true;       // states keep only the facts that matter to what is left to do
+    bool when_due = false;          // methods that begin with an action are not chosen until it can be executed
     bool in_sequence = false;       // tasks without an order come in that of the domain: some plans are left out
 };
 
@@ -88,6 +89,9 @@ public:
     Branching& branching() { return branching_; }
 
 private:
+    bool execute_at_once(StateId state, NetworkId network, std::vector<Successor>& successors);
+    bool decompose_at_once(StateId state, NetworkId network, std::vector<Successor>& successors);
+    void expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors);
     std::optional<Occurrence> compound_to_decompose() const;
     bool is_in_the_way(TaskId task) const { return problem_.is_primitive(task) && is_void_[task]; }
     bool is_void(ActionId action) const;
@@ -116,6 +120,7 @@ private:
     std::vector<MethodId> live_methods_;
     std::vector<Occurrence> to_execute_;
     StateBits next_;
+    bool waits_until_due_;
     std::uint64_t work_ = 0;  // of looking at networks
 };
 

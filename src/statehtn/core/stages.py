@@ -19,6 +19,7 @@ class BestFirst:
     A greedy one gives up after `most_evaluations`, or once it has looked at so many actions and methods (`most_looks`;
     evaluations take the longer, the more there are). `explores`: whether every other node is one at random.
     `in_sequence`: tasks without an order are done in that of the domain, one after the other, which leaves out plans.
+    `when_due`: methods that begin with an action, or a condition, are not chosen until it can be executed.
     """
 
     algorithm: _relax.SearchAlgorithm
@@ -28,6 +29,7 @@ class BestFirst:
     most_looks: int | None = None
     explores: bool = True
     in_sequence: bool = False
+    when_due: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,7 @@ def _greedy(heuristic: str | None = None) -> tuple[BestFirst, ...]:
     return (
         BestFirst(greedy, heuristic, None, 5_000, 5_000_000, explores=False, in_sequence=True),
         BestFirst(greedy, "tdg", None, 20_000, in_sequence=True),
+        BestFirst(greedy, heuristic, None, 5_000, 5_000_000, explores=False, when_due=True),
         BestFirst(greedy, heuristic, None, 20_000, 12_000_000, explores=False),
         BestFirst(greedy, "tdg", None, 60_000),
         BestFirst(greedy, heuristic, None, 150_000, 120_000_000),
@@ -104,6 +107,7 @@ def core_options(
         options.weight = search.weight or weight
         options.explores = search.explores
         options.in_sequence = search.in_sequence
+        options.when_due = search.when_due
         options.most_evaluations = search.most_evaluations
         if search.most_looks is not None:
             options.most_evaluations = min(search.most_evaluations or search.most_looks, 1 + search.most_looks // size)
@@ -117,7 +121,7 @@ def core_options(
             yield [
                 options_of(finder, (finder.heuristic or (GREEDY if heuristic == PORTFOLIO else heuristic),))
                 for finder in stage.finders
-                if not (finder.in_sequence and grounding.handle.is_totally_ordered)
+                if not ((finder.in_sequence or finder.when_due) and grounding.handle.is_totally_ordered)
             ]
 
     portfolio = _relax.SearchOptions()
