@@ -163,11 +163,31 @@ def action(draw: Draw, names: Names, name: str, costly: bool) -> Action:
     costs: list[CostBlock] = []
     if costly and not chance(draw, 0.15):
         costs.append(CostBlock(draw(branches(parameters))))
-        if chance(draw, 0.25):
+        for _ in range(draw(st.sampled_from((0, 0, 0, 1, 1, 2, 3)))):
             bound = (Parameter("?w", (draw(st.sampled_from(names.types)),)),) if chance(draw, 0.2) else ()
-            condition = names.condition(draw, parameters + bound)
+            condition = draw(cost_condition(names, parameters + bound, effects, costs))
             costs.append(CostBlock(draw(branches(parameters + bound)), condition, bound))
     return Action(name, parameters, precondition, tuple(effects), tuple(costs))
+
+
+@st.composite
+def cost_condition(
+    draw: Draw, names: Names, scope: tuple[Parameter, ...], effects: list[Effect], costs: list[CostBlock]
+) -> Formula:
+    """Any condition, or one that has to do with other ones of the action or with what it changes."""
+    others = [block.condition for block in costs if block.condition != TRUE and not block.parameters]
+    changed: list[Formula] = [effect.atom for effect in effects if not effect.parameters]
+    match draw(st.sampled_from(("any", "any", "several", "overlapping", "else", "changed"))):
+        case "overlapping" if others:
+            return And((draw(st.sampled_from(others)), names.condition(draw, scope)))
+        case "else" if others:
+            return Not(draw(st.sampled_from(others)))
+        case "changed" if changed:
+            atom = draw(st.sampled_from(changed))
+            return Not(atom) if chance(draw, 0.5) else atom
+        case "several":
+            return names.precondition(draw, scope, (2, 3))
+    return names.condition(draw, scope)
 
 
 @st.composite

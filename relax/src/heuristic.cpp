@@ -39,16 +39,16 @@ private:
     HMax hmax_;
 };
 
-// A heuristic for what a decomposition costs beyond the cheapest one, in the decomposition model. Every method costs
-// its slack, the sum of its subtasks' bounds less its task's, and actions are free: a plan costs the sum of the
-// network's bounds and of the slacks of the methods it uses.
+// A heuristic for what a plan costs beyond the network's bounds, in the decomposition model. Every method costs its
+// slack, the sum of its subtasks' bounds less its task's, and of an action only the cost parts cost something: a plan
+// costs the sum of the network's bounds, of the slacks of the methods it uses and of the cost parts that are due.
 template <typename ClassicalHeuristic>
 class Slack final : public Heuristic {
 public:
     Slack(const GroundProblem& problem, const Prices& prices, Limits& limits)
-        : slack_(
-              RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, prices.actions, limits)), limits),
-              limits) {}
+        : slack_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, prices.actions, limits)),
+                                             prices.parts, limits),
+                 limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = slack_.evaluate(node);
@@ -106,21 +106,18 @@ std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProble
         case HeuristicKind::Tdg:
             return std::make_unique<TdgBound>();
         case HeuristicKind::HMax:
-            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, prices.actions, limits),
+            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, prices, limits),
                                                              limits);
         case HeuristicKind::LmCut:
-            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, prices.actions, limits),
-                                                        limits);
+            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, prices, limits), limits);
         case HeuristicKind::Potential:
             return std::make_unique<Slack<LmCut>>(problem, prices, limits);
         case HeuristicKind::PotentialHMax:
             return std::make_unique<Slack<PricedHMax>>(problem, prices, limits);
         case HeuristicKind::Add:
-            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, prices.actions, limits),
-                                                           limits);
+            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, prices, limits), limits);
         case HeuristicKind::Ff:
-            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, prices.actions, limits),
-                                                     limits);
+            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, prices, limits), limits);
     }
     return nullptr;
 }

@@ -34,8 +34,9 @@ void sort_unique(std::vector<Value>& values) {
 
 }  // namespace
 
-RelaxedModel RelaxedModel::composition(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits) {
-    RelaxedModel model(problem, costs, limits);
+RelaxedModel RelaxedModel::composition(const GroundProblem& problem, const Prices& prices, Limits& limits) {
+    RelaxedModel model(problem, prices.actions, prices.parts, limits);
+    model.first_settled_ = static_cast<RelaxedFact>(model.fact_count_);
     model.method_operator.resize(problem.method_count());
     for (ActionId action = 0; action < problem.action_count(); ++action) {
         limits.stop_if_reached();
@@ -59,8 +60,9 @@ RelaxedModel RelaxedModel::composition(const GroundProblem& problem, std::span<c
     return model;
 }
 
-RelaxedModel RelaxedModel::decomposition(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits) {
-    RelaxedModel model(problem, costs, limits);
+RelaxedModel RelaxedModel::decomposition(const GroundProblem& problem, std::span<const Cost> costs,
+                                         std::span<const Cost> parts, Limits& limits) {
+    RelaxedModel model(problem, costs, parts, limits);
     model.may_start_begin_ = static_cast<RelaxedFact>(model.fact_count_);
     model.action_starts_ = static_cast<RelaxedFact>(problem.action_count());
     model.fact_count_ += problem.task_count();
@@ -76,10 +78,14 @@ RelaxedModel RelaxedModel::decomposition(const GroundProblem& problem, std::span
     return model;
 }
 
-RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits)
-    : owner_cost(costs.begin(), costs.end()), complement_of_(problem.fact_count(), kAlwaysTrue) {
+RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> costs, std::span<const Cost> parts,
+                           Limits& limits)
+    : owner_cost(costs.begin(), costs.end()),
+      first_part_(costs.size()),
+      complement_of_(problem.fact_count(), kAlwaysTrue) {
+    owner_cost.insert(owner_cost.end(), parts.begin(), parts.end());
     owner_cost.push_back(0);
-    std::vector<FactId> negative;
+    std::vector<FactId> negative = facts_of_priced_parts(problem, parts, limits);
     for (ActionId action = 0; action < problem.action_count(); ++action) {
         limits.stop_if_reached();
         const auto row = problem.negative_preconditions[action];
@@ -121,6 +127,7 @@ void RelaxedModel::add_action(const GroundProblem& problem, ActionId action, Own
     for (const FactId fact : problem.negative_preconditions[action]) {
         needed.push_back(complement_of_[fact]);
     }
+    settle_costs(problem, action, needed);
     std::vector<RelaxedFact> always{reached(action)};
     for (EffectId effect = problem.effect_begin[action]; effect < problem.effect_begin[action + 1]; ++effect) {
         std::vector<RelaxedFact> made;

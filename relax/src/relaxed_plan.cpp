@@ -23,7 +23,7 @@ RelaxedPlan::RelaxedPlan(const RelaxedModel& model, Limits& limits)
     const Cost step = std::max(Cost{1}, count == 0 ? Cost{1} : sum / count);
     for (OperatorId op = 0; op < model.operator_count(); ++op) {
         limits.stop_if_reached();
-        weight_.push_back(add_bounds(model.owner_cost[model.owner[op]], step));
+        weight_.push_back(add_bounds(model.owner_cost[model.owner[op]], model.is_step(op) ? step : 0));
         preconditions_.push_back(static_cast<std::uint32_t>(model.preconditions[op].size()));
     }
     weigh_tasks();
@@ -49,7 +49,7 @@ void RelaxedPlan::weigh_tasks() {
         for (const TaskId subtask : model_.operator_subtasks[op]) {
             users[subtask].push_back(op);
         }
-        if (missing[op] == 0) {
+        if (missing[op] == 0 && model_.is_step(op)) {
             offer_weight(model_.operator_task[op], weight_[op]);
         }
     }

@@ -13,6 +13,7 @@ from statehtn.core.heuristics import HEURISTICS, HeuristicEvaluator
 from statehtn.model import GroundProblem, Problem
 from statehtn.reference import RelaxedTask, compute_rc_ad_heur, hmax
 from statehtn.risk import Utility
+from statehtn.risk.cost_shifting import shifted_prices
 from tests.differential.oracles import ADMISSIBLE, close_to
 from tests.remaining_cost import explore
 from tests.strategies import problems, utilities
@@ -86,18 +87,20 @@ def test_lmcut_lies_between_hmax_and_the_relaxed_optimum(problem: Problem, utili
 
 
 def relaxed_optimum(task: RelaxedTask) -> float:
-    """The least cost of a set of actions, each paid for once, that makes the goals reachable; by trying all sets."""
-    cost_of = {operator.action: operator.cost for operator in task.operators if operator.cost > 0}
+    """The least cost of actions and parts, each paid for once, that make the goals reachable; by trying all sets."""
+    cost_of = {(operator.action, operator.part): operator.cost for operator in task.operators if operator.cost > 0}
     assume(2 ** len(cost_of) <= MOST_SUBSETS)
     sets = itertools.chain.from_iterable(itertools.combinations(cost_of, size) for size in range(len(cost_of) + 1))
     best = math.inf
-    for chosen in sorted(sets, key=lambda actions: sum(cost_of[action] for action in actions)):
-        usable = [operator for operator in task.operators if operator.cost == 0 or operator.action in chosen]
+    for chosen in sorted(sets, key=lambda paid: sum(cost_of[one] for one in paid)):
+        usable = [
+            operator for operator in task.operators if operator.cost == 0 or (operator.action, operator.part) in chosen
+        ]
         reached = set(task.initial_state)
         while new := {fact for o in usable if o.preconditions <= reached for fact in o.add_effects} - reached:
             reached |= new
         if task.goals <= reached:
-            best = sum(cost_of[action] for action in chosen)
+            best = sum(cost_of[one] for one in chosen)
             break
     return best
 
@@ -115,7 +118,8 @@ def test_tdg_is_the_least_cost_of_a_decomposition(problem: Problem, utility: Uti
 
 def decomposition_costs(problem: GroundProblem, utility: Utility) -> list[float]:
     """For every task the least cost of its decompositions, whatever the state: by repetition until nothing changes."""
-    values = [utility.risk_cost(action.cost) for action in problem.actions] + [math.inf] * len(problem.tasks)
+    values = [shifted_prices(a.cost, a.cost_parts, utility)[0] for a in problem.actions]
+    values += [math.inf] * len(problem.tasks)
     changed = True
     while changed:
         changed = False

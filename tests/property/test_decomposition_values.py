@@ -19,7 +19,7 @@ from statehtn.decomposition import (
     paper_value,
     task_decomposition_graph,
 )
-from statehtn.decomposition.values import paper_unit
+from statehtn.decomposition.values import least_price, paper_unit
 from statehtn.model import CostDistribution, Problem
 from statehtn.risk import Utility, utility_for
 from tests.strategies import problems, utilities
@@ -34,9 +34,8 @@ def without_repetition(
     graph: nx.MultiDiGraph, utility: Utility, task: str, path: frozenset[str] = frozenset()
 ) -> float:
     """What the paper means: the best decomposition without a task below itself. Exponential."""
-    law = graph.nodes[task].get("law")
-    if law is not None:
-        return utility.risk_cost(law)
+    if graph.nodes[task].get("law") is not None:
+        return least_price(graph, task, utility)
     if task in path:
         return math.inf
     below = path | {task}

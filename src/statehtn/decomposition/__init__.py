@@ -1,7 +1,7 @@
 """The task decomposition graphs of a problem (paper Definitions 4.5 and 4.6) and the values on them (Algorithms 1, 2).
 
 Graphs are `networkx.MultiDiGraph`s: a method may contain a task several times. Nodes have the attributes `kind` (see
-`Kind`) and `label`; primitive tasks have `law`, their `CostDistribution` (in the lifted graph `cost`, as HDDL), methods
+`Kind`) and `label`; primitive tasks have `law`, the law of their cost (in the lifted graph `cost`, as HDDL), methods
 have `ordering`, pairs of positions. Edges from a method to its subtasks have `position`, from 0.
 """
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from statehtn.decomposition.graphs import Kind
-from statehtn.decomposition.values import paper_value
+from statehtn.decomposition.values import least_price, paper_unit
 from statehtn.risk import Utility
 
 if TYPE_CHECKING:
@@ -37,9 +37,9 @@ def compute_utilities(
             paper's own example of two cycles takes for granted.
     """
     vectors: dict[str, Vector] = {node: {} for node in graph}
-    for node, law in graph.nodes.data("law"):
-        if law is not None:
-            vectors[node][0] = paper_value(utility, law)  # lines 1 to 5
+    for node in graph:
+        if "law" in graph.nodes[node]:
+            vectors[node][0] = -least_price(graph, node, utility) * paper_unit(utility)  # lines 1 to 5
     compound = [node for node, kind in graph.nodes.data("kind") if kind is Kind.COMPOUND]
     for gid, task in enumerate(compound, 1):  # lines 9 to 13
         vectors[task][gid] = _compute_task_eu(graph, vectors, task, [], None, gid, as_printed)

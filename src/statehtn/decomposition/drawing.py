@@ -29,7 +29,8 @@ def to_graphml(graph: nx.MultiDiGraph[str]) -> str:
 
     plain: Any = graph.__class__()
     for node, attributes in graph.nodes(data=True):
-        plain.add_node(node, **{name: _plain(value) for name, value in attributes.items()})
+        shown = {name: _plain(value) for name, value in attributes.items() if name != "cost_parts"}  # `cost` says it
+        plain.add_node(node, **shown)
     for tail, head, attributes in graph.edges(data=True):
         plain.add_edge(tail, head, **{name: _plain(value) for name, value in attributes.items()})
     return "\n".join(nx.generate_graphml(plain)) + "\n"
@@ -95,7 +96,7 @@ def _label(attributes: dict[str, Any]) -> str:
     """Return what a node says: its name, its cost, and what it is worth to the agent."""
     lines = [str(attributes["label"])]
     law, value = attributes.get("law"), attributes.get("risk_cost")
-    lines += str(law or attributes.get("cost") or "").split("; ")
+    lines += str(attributes.get("cost") or law or "").split("; ")
     if law is not None and value is not None:
         lines += [f"worth {value:.4g}"] if law.least < law.most else []
     elif value is not None:

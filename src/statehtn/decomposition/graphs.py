@@ -9,7 +9,7 @@ from statehtn.errors import UsageError
 from statehtn.hddl.writer import expression_text, formula_text
 from statehtn.model.costs import CostBlock
 from statehtn.model.formula import TRUE
-from statehtn.model.ground import GroundMethod, GroundProblem
+from statehtn.model.ground import GroundCostPart, GroundMethod, GroundProblem
 from statehtn.model.problem import Problem, TaskNetwork
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def _add_lifted_method(graph: nx.MultiDiGraph[str], name: str, task: str, networ
 def ground_task_decomposition_graph(problem: GroundProblem) -> nx.MultiDiGraph[str]:
     """Return the graph of the ground tasks and methods (Definition 4.6).
 
-    An action whose cost or precondition differs from state to state is a compound task with a method for each case.
+    An action whose precondition is a disjunction is a compound task with a method for each case.
     Method preconditions, which the ground problem has as actions without cost, are left out.
 
     Args:
@@ -86,12 +86,28 @@ def ground_task_decomposition_graph(problem: GroundProblem) -> nx.MultiDiGraph[s
         if not action.is_artificial:
             label = " ".join((action.name, *action.arguments))
             graph.add_node(f"t{number}", kind=Kind.PRIMITIVE, label=label, law=action.cost)
+            if action.cost_parts:
+                cost = "; ".join((str(action.cost), *(_part_text(part, problem) for part in action.cost_parts)))
+                graph.add_node(f"t{number}", cost=cost, cost_parts=action.cost_parts)
     for number, task in enumerate(problem.tasks, len(problem.actions)):
         label = INITIAL if number == problem.initial_task else " ".join(task)
         graph.add_node(f"t{number}", kind=Kind.COMPOUND, label=label)
     for number, method in enumerate(problem.methods):
         _add_ground_method(graph, problem, number, method)
     return graph
+
+
+def _part_text(part: GroundCostPart, problem: GroundProblem) -> str:
+    """Return a part of a ground action's cost in few words."""
+
+    def shown(fact: int) -> str:
+        return f"({' '.join(problem.facts[fact])})"
+
+    alternatives = (
+        " and ".join([*map(shown, sorted(true)), *(f"not {shown(fact)}" for fact in sorted(false))])
+        for true, false in part.alternatives
+    )
+    return f"{part.cost} when {' or '.join(alternatives)}"
 
 
 def _add_ground_method(graph: nx.MultiDiGraph[str], problem: GroundProblem, number: int, method: GroundMethod) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from statehtn.decomposition.graphs import Kind
 from statehtn.model import CostLaw
 from statehtn.risk import Utility
+from statehtn.risk.cost_shifting import shifted_prices
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -28,6 +29,12 @@ def paper_unit(utility: Utility) -> float:
     return 1.0 if utility.alpha is None else utility.alpha / math.log(10)
 
 
+def least_price(graph: nx.MultiDiGraph[str], node: str, utility: Utility) -> float:
+    """Return a lower bound of the risk cost of a primitive task in any state, exact where it costs the same in all."""
+    attributes = graph.nodes[node]
+    return shifted_prices(attributes["law"], attributes.get("cost_parts", ()), utility)[0]
+
+
 def least_risk_costs(graph: nx.MultiDiGraph[str], utility: Utility) -> dict[str, float]:
     """Return for every task and method the least risk cost of its decompositions, states ignored; infinite for none.
 
@@ -40,7 +47,7 @@ def least_risk_costs(graph: nx.MultiDiGraph[str], utility: Utility) -> dict[str,
     """
     costs = dict.fromkeys(graph, math.inf)
     missing = {node: graph.out_degree(node) for node, kind in graph.nodes.data("kind") if kind is Kind.METHOD}
-    queue = [(utility.risk_cost(law), node) for node, law in graph.nodes.data("law") if law is not None]
+    queue = [(least_price(graph, node, utility), node) for node in graph if "law" in graph.nodes[node]]
     queue += [(0.0, method) for method, count in missing.items() if count == 0]
     heapq.heapify(queue)
     while queue:

@@ -7,7 +7,7 @@ with classical heuristics" (ICAPS 2018).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from unified_planning.environment import get_environment
@@ -17,9 +17,10 @@ from unified_planning.model import Problem as UpProblem
 from unified_planning.model.metrics import MinimizeActionCosts
 
 from statehtn.core.grounding import PLAIN, ground
-from statehtn.model import GroundAction, GroundMethod, GroundProblem, Problem
+from statehtn.model import GroundAction, GroundCostPart, GroundMethod, GroundProblem, Problem
 from statehtn.model.costs import exact
 from statehtn.risk import Attitude, AttitudeName, Utility, utility_for
+from statehtn.risk.cost_shifting import shifted_prices
 
 DIGITS = 10
 """Costs are rounded to so many significant digits, which is what UP's writer of PDDL holds."""
@@ -54,6 +55,10 @@ class _Builder:
             for number in sorted(read_false(ground_problem))
         }
         tasks = [(action.name, *action.arguments) for action in ground_problem.actions]
+        # Between the beginning of an action whose cost has parts and its end nothing else changes the state.
+        self.idle: Any = None
+        if any(action.cost_parts for action in ground_problem.actions):
+            self.idle = self.fact("idle", True)
         self.reached = [self.fact(f"reached {shown(task)}", False) for task in (*tasks, *ground_problem.tasks)]
 
     def build(self) -> UpProblem:
@@ -87,23 +92,30 @@ class _Builder:
         """Return the facts that say that some hold and others do not."""
         return [*(self.facts[f] for f in sorted(positive)), *(self.lacking[f] for f in sorted(negative))]
 
-    def operator(self, name: str, conditions: Iterable[Any], reached: int, cost: Any) -> InstantaneousAction:
-        """Declare an operator that reaches a task, with a cost in the domain's unit."""
+    def operator(self, name: str, conditions: Iterable[Any], gained: Any, cost: float = 0.0) -> InstantaneousAction:
+        """Add an operator that makes a fact true, with a cost in the domain's unit."""
         operator = InstantaneousAction(self.unique(name), _env=self.environment)
         for condition in conditions:
             operator.add_precondition(condition)
-        operator.add_effect(self.reached[reached], True)
-        self.costs[operator] = cost
+        operator.add_effect(gained, True)
+        rounded = exact(float(f"{cost:.{DIGITS}g}"))
+        (self.costs[operator],) = self.environment.expression_manager.auto_promote(rounded)
+        self.up.add_action(operator)
         return operator
 
     def add_action(self, task: int, action: GroundAction) -> None:
         """Add the operator of an action: it does what the action does, and reaches it as a task."""
+        name = shown((action.name, *action.arguments))
         needed = self.conditions(action.precondition, action.negative_precondition)
-        cost = self.environment.expression_manager.Int(0)
-        if not action.is_artificial:
-            rounded = float(f"{self.utility.risk_cost(action.cost):.{DIGITS}g}")
-            (cost,) = self.environment.expression_manager.auto_promote(exact(rounded))
-        operator = self.operator(shown((action.name, *action.arguments)), needed, task, cost)
+        if self.idle is not None:
+            needed.append(self.idle)
+        cost, prices = shifted_prices(action.cost, action.cost_parts, self.utility)
+        if action.cost_parts:
+            needed = [self.settle(name, needed, action.cost_parts, prices)]
+        operator = self.operator(name, needed, self.reached[task], cost)
+        if action.cost_parts:
+            operator.add_effect(self.idle, True)
+            operator.add_effect(needed[0], False)
         for effect in action.effects:
             condition = self.environment.expression_manager.And(
                 self.conditions(effect.condition, effect.negative_condition)
@@ -113,12 +125,33 @@ class _Builder:
                     operator.add_effect(self.facts[number], value, condition)
                     if number in self.lacking:
                         operator.add_effect(self.lacking[number], not value, condition)
-        self.up.add_action(operator)
+
+    def settle(self, name: str, needed: Iterable[Any], parts: Sequence[GroundCostPart], prices: Sequence[float]) -> Any:
+        """Add operators that settle the parts of an action's cost in turn: a part is paid for if it is due.
+
+        Returns the fact that all of them are settled, which the action needs.
+        """
+        settled = self.fact(f"begun {name}", False)
+        self.operator(f"begin {name}", needed, settled).add_effect(self.idle, False)
+        for number, (part, price) in enumerate(zip(parts, prices, strict=True)):
+            before, settled = settled, self.fact(f"settled {number} {name}", False)
+            failed = [self.fact(f"failed {number} {name}", False) for _ in part.alternatives]
+            last = [self.operator(f"spare {number} {name}", [before, *failed], settled)]
+            for (true, false), failure in zip(part.alternatives, failed, strict=True):
+                last.append(
+                    self.operator(f"pay {number} {name}", [before, *self.conditions(true, false)], settled, price)
+                )
+                for condition in self.conditions(false, true):
+                    self.operator(f"fail {number} {name}", [before, condition], failure)
+            for operator in last:
+                for fact in (before, *failed):
+                    operator.add_effect(fact, False)
+        return settled
 
     def add_method(self, method: GroundMethod) -> None:
         """Add the operator of a method: its task is reached once its subtasks are."""
         needed = [self.reached[subtask] for subtask in sorted(set(method.subtasks))]
-        self.up.add_action(self.operator(shown((method.name, *method.arguments)), needed, method.task, 0))
+        self.operator(shown((method.name, *method.arguments)), needed, self.reached[method.task])
 
 
 def shown(atom: tuple[str, ...]) -> str:
@@ -127,8 +160,10 @@ def shown(atom: tuple[str, ...]) -> str:
 
 
 def read_false(problem: GroundProblem) -> set[int]:
-    """Return the facts that some action needs to be false."""
+    """Return the facts that some action needs to be false, or that decide what it costs."""
+    parts = [part for action in problem.actions for part in action.cost_parts]
     return set().union(
+        *(true | false for part in parts for true, false in part.alternatives),
         *(action.negative_precondition for action in problem.actions),
         *(effect.negative_condition for action in problem.actions for effect in action.effects),
     )

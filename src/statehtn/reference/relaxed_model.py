@@ -10,13 +10,14 @@ with classical heuristics" (ICAPS 2018).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from statehtn.model.ground import GroundAction, GroundProblem
 
-RelaxedFact = tuple[str, int]
-"""What may become true: `("holds", f)` and `("lacks", f)` for a fact f of the state, `("reached", t)` for a task t."""
+RelaxedFact = tuple[str, int, *tuple[int, ...]]
+"""What may become true: `("holds", f)` and `("lacks", f)` for a fact f of the state, `("reached", t)` for a task t,
+`("settled", a, p)` for part p of the cost of action a, and `("fails", a, p, i)` for an alternative of its condition."""
 
 
 @dataclass(slots=True)
@@ -29,6 +30,8 @@ class RelaxedOperator:
         add_effects: what becomes true.
         action: the ground action it comes from, None for a method. A conditional effect is an operator of its own
             beside its action's, so that several operators may have the same action.
+        part: the part of the action's cost that the operator settles, None where it does what the action does.
+        is_due: whether it settles the part by paying for it.
         cost: positive or 0, in the domain's unit; `compute_rc_ad_heur` sets it.
     """
 
@@ -36,6 +39,8 @@ class RelaxedOperator:
     preconditions: frozenset[RelaxedFact]
     add_effects: frozenset[RelaxedFact]
     action: int | None
+    part: int | None = None
+    is_due: bool = False
     cost: float = 0.0
 
 
@@ -93,28 +98,57 @@ def _reachable_tasks(tasks: frozenset[int], problem: GroundProblem) -> set[int]:
 
 
 def _operators_of_action(task: int, action: GroundAction) -> list[RelaxedOperator]:
-    """Return an operator for the action with its unconditional effects, and one for each of its conditional ones."""
+    """Return an operator for the action with its unconditional effects, and one for each of its conditional ones.
+
+    What the action does needs all parts of its cost settled, one after the other: each because its condition holds, at
+    its price, or for free because the condition does not hold.
+    """
     name = f"({' '.join((action.name, *action.arguments))}) #{task}"
-    preconditions = frozenset((*_holds(action.precondition), *_lacks(action.negative_precondition)))
+    preconditions = _literals(action.precondition, action.negative_precondition)
+    operators: list[RelaxedOperator] = []
+    for number in range(len(action.cost_parts)):
+        operators += _operators_of_part(name, preconditions, task, action, number)
+        preconditions = frozenset([("settled", task, number)])
     made = [
         (
-            preconditions.union(_holds(effect.condition), _lacks(effect.negative_condition)),
+            preconditions | _literals(effect.condition, effect.negative_condition),
             frozenset((*_holds(effect.added), *_lacks(effect.deleted))),
         )
         for effect in action.effects
     ]
     always = frozenset([("reached", task)]).union(*(added for needed, added in made if needed == preconditions))
-    operators = [RelaxedOperator(name, preconditions, always, task)]
+    operators.append(RelaxedOperator(name, preconditions, always, task))
     for number, (needed, added) in enumerate(made):
         if needed != preconditions:
             operators.append(RelaxedOperator(f"{name} effect {number}", needed, added, task))
     return operators
 
 
+def _operators_of_part(
+    name: str, preconditions: frozenset[RelaxedFact], task: int, action: GroundAction, part: int
+) -> Iterator[RelaxedOperator]:
+    """Yield the operators that settle a part of an action's cost."""
+    settled = frozenset([("settled", task, part)])
+    fails: set[RelaxedFact] = set()
+    for number, (true, false) in enumerate(action.cost_parts[part].alternatives):
+        due = preconditions | _literals(true, false)
+        yield RelaxedOperator(f"{name} cost {part} due by {number}", due, settled, task, part, is_due=True)
+        failure: RelaxedFact = ("fails", task, part, number)
+        fails.add(failure)
+        for literal in sorted(_literals(false, true)):
+            why = f"{name} cost {part} not due by {number}: {literal}"
+            yield RelaxedOperator(why, frozenset([literal]), frozenset([failure]), task, part)
+    yield RelaxedOperator(f"{name} cost {part} not due", preconditions | fails, settled, task, part)
+
+
 def _operator_of_method(method: int, problem: GroundProblem) -> RelaxedOperator:
     ground = problem.methods[method]
     subtasks = frozenset(("reached", subtask) for subtask in ground.subtasks)
     return RelaxedOperator(f"{ground.name} #{method}", subtasks, frozenset([("reached", ground.task)]), None)
+
+
+def _literals(true: Iterable[int], false: Iterable[int]) -> frozenset[RelaxedFact]:
+    return frozenset((*_holds(true), *_lacks(false)))
 
 
 def _holds(facts: Iterable[int]) -> Iterable[RelaxedFact]:
