@@ -83,4 +83,4 @@ def test_pictures_that_nobody_can_look_at(
 ) -> None:
     monkeypatch.setattr(drawing, "MOST_NODES", 10)
     assert write(tmp_path / "graph.svg") == 2
-    assert "99 nodes" in capsys.readouterr().err
+    assert "91 nodes" in capsys.readouterr().err
