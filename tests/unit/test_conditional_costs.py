@@ -34,10 +34,11 @@ def house(heating: str, network: str, windows: int = 3, wide_open: range | None 
       (:action clean :parameters (?w - window) :effect (not (dirty ?w)))
       (:action heat :parameters () :effect (and {more.get("effect", "(warm)")} {heating})))"""
     names = [f"w{number}" for number in range(windows)]
+    more_windows = " ".join(f"{name} - window" for name in names[3:])
     facts = " ".join(f"(open {names[number]})" for number in (range(windows) if wide_open is None else wide_open))
     return read_hddl_text(
         domain,
-        f"(define (problem p) (:domain house) (:objects {' '.join(f'{name} - window' for name in names[3:])}) (:htn {network}) (:init {facts}))",
+        f"(define (problem p) (:domain house) (:objects {more_windows}) (:htn {network}) (:init {facts}))",
     )
 
 
