@@ -122,7 +122,7 @@ def package(session: nox.Session) -> None:
     session.run("python", "-m", "build", "--sdist", "--outdir", str(folder))
     (source,) = folder.glob("*.tar.gz")
     unpacked = unpack(session, source)
-    session.run("python", "-m", "pip", "wheel", "--no-deps", "--wheel-dir", str(folder), str(source))
+    session.run("python", "-m", "pip", "wheel", "--no-cache-dir", "--no-deps", "--wheel-dir", str(folder), str(source))
     (wheel,) = folder.glob("*.whl")
     session.run("twine", "check", "--strict", str(source), str(wheel))
     if sys.platform == "linux":
@@ -131,7 +131,7 @@ def package(session: nox.Session) -> None:
         session.run("abi3audit", "--strict", "--report", str(wheel))
     if wheel.stat().st_size > LARGEST_WHEEL:
         session.error(f"{wheel} has {wheel.stat().st_size} bytes")
-    for file, python in ((source, session.python), (wheel, session.python), *((wheel, new) for new in newer(session))):
+    for file, python in ((wheel, session.python), *((wheel, new) for new in newer(session)), (source, session.python)):
         try_out(session, file.resolve(), str(python), unpacked)
 
 
@@ -168,7 +168,7 @@ def try_out(session: nox.Session, file: Path, python: str, unpacked: Path) -> No
     session.run(f"python{python}", "-m", "venv", "--clear", str(environment), external=True)
     run = str(environment / "bin" / "python")
     with session.chdir(unpacked):
-        session.run(run, "-m", "pip", "install", "--quiet", str(file), external=True)
+        session.run(run, "-m", "pip", "install", "--quiet", "--no-cache-dir", str(file), external=True)
         av = ("domains/av/domain.hddl", "domains/av/p1.hddl")
         for agent in (("neutral",), ("averse", "--alpha", "0.9"), ("seeking", "--alpha", "0.9")):
             session.run(run, "-m", "statehtn", "plan", *av, "--quiet", "--attitude", *agent, external=True)
@@ -178,7 +178,7 @@ def try_out(session: nox.Session, file: Path, python: str, unpacked: Path) -> No
             "tests/test_minimal.py",
             "tests/regression",
             "tests/unit/test_cli.py",
-            "tests/unit/test_missing_libraries.py",
+            "tests/unit/test_planner.py",
         )
         session.run(run, "-m", "pytest", "-q", "-p", "no:cacheprovider", *chosen, external=True)
 
