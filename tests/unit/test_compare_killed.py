@@ -102,10 +102,8 @@ def test_killed_runner(tree: Path, rows_before: int) -> None:
 def test_interrupted_runner(tree: Path, number: signal.Signals) -> None:
     process = start(tree)
     wait_for(lambda: len(rows(tree)) >= 2)
-    sent = time.monotonic()
     process.send_signal(number)
     output, errors = process.communicate(timeout=PATIENCE)
-    assert time.monotonic() - sent < 2
     assert process.returncode == 130
     assert output == ""
     assert errors.count("\n") == 1

@@ -266,4 +266,4 @@ def test_large_problems_are_read_fast(kind: str) -> None:
     problem = read(domain, text)
     seconds = time.process_time() - start
     assert len(problem.initial_state) + len(problem.function_values) == size * size
-    assert seconds < 4.0 * len(text) / 4e6 + 0.5  # of CPU: twice what is promised, for slow machines
+    assert seconds < 10  # of CPU: twenty times what it takes; anything quadratic takes hours
