@@ -1,20 +1,56 @@
 #include "grounder_assembly.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <optional>
 
 #include "grounder_composition.hpp"
+#include "relax/id_table.hpp"
 
 namespace relax::grounding {
 
 namespace {
 
+// Artificial actions by what they test. They do nothing else, so that any that tests the same will do.
+class Tests {
+public:
+    // Returns the first action with these cases, which may be this one.
+    NodeId find_or_add(NodeId node, const std::vector<RemainingCase>& cases) {
+        std::vector<Conjunction> conditions;
+        for (const RemainingCase& one : cases) {
+            conditions.push_back(one.condition);
+        }
+        std::ranges::sort(conditions);
+        std::vector<Literal> content;
+        for (const Conjunction& condition : conditions) {
+            content.insert(content.end(), condition.begin(), condition.end());
+            content.push_back(kEnd);
+        }
+        const std::uint64_t hash = hash_values(content);
+        if (const auto known =
+                table_.find(hash, [&](std::uint32_t test) { return std::ranges::equal(contents_[test], content); })) {
+            return nodes_[*known];
+        }
+        table_.add(hash, static_cast<std::uint32_t>(nodes_.size()),
+                   [this](std::uint32_t test) { return hash_values(contents_[test]); });
+        contents_.add_row(content);
+        nodes_.push_back(node);
+        return node;
+    }
+
+private:
+    static constexpr Literal kEnd = static_cast<Literal>(-1);  // of a case
+
+    Rows<Literal> contents_;
+    std::vector<NodeId> nodes_;
+    IdTable table_;
+};
+
 class Assembly {
 public:
     explicit Assembly(const Remains& remains)
         : remains_(remains),
+          is_written_(remains.graph.action_node_count, false),
           is_void_(remains.graph.action_node_count, false),
           stands_for_(remains.graph.is_node_alive.size()),
           task_of_node_(remains.graph.is_node_alive.size()) {
@@ -52,39 +88,27 @@ private:
             .relations[remains_.knowledge.task_relation(task)][node - remains_.graph.task_begin[task]];
     }
 
+    // Which actions are written, and which tests stand for others. What remains of an action is found again when it is
+    // written, since all of them together take several times the memory of what is written.
     void find_cases() {
-        cases_.resize(remains_.graph.action_node_count);
+        Tests tests;
         for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
             for_each_living_node(action, [&](NodeId node) {
-                std::vector<RemainingCase> cases = remaining_cases(remains_, node);
-                if (!lifted().actions[action].is_artificial) {
-                    cases_[node] = std::move(cases);
-                } else if (cases[0].condition.empty()) {
-                    is_void_[node] = true;
-                } else {
-                    find_test(node, std::move(cases));
+                is_written_[node] = true;
+                if (lifted().actions[action].is_artificial) {
+                    const std::vector<RemainingCase> cases = remaining_cases(remains_, node);
+                    is_void_[node] = cases[0].condition.empty();
+                    if (!is_void_[node] && remains_.options.merge_equal) {
+                        stands_for_[node] = tests.find_or_add(node, cases);
+                    }
+                    is_written_[node] = !is_void_[node] && stands_for_[node] == node;
                 }
             });
         }
     }
 
-    // Artificial actions only test something, so that any that tests the same will do.
-    void find_test(NodeId node, std::vector<RemainingCase> cases) {
-        std::vector<Conjunction> content;
-        for (const RemainingCase& one : cases) {
-            content.push_back(one.condition);
-        }
-        std::ranges::sort(content);
-        if (remains_.options.merge_equal) {
-            stands_for_[node] = tests_.try_emplace(std::move(content), node).first->second;
-        }
-        if (stands_for_[node] == node) {
-            cases_[node] = std::move(cases);
-        }
-    }
-
     void number_facts() {
-        const std::vector<bool> is_read = read_facts(remains_, cases_);
+        const std::vector<bool> is_read = read_facts(remains_, is_written_);
         number_of_fact_.resize(is_read.size());
         for (std::uint32_t predicate = 0; predicate < lifted().predicate_count; ++predicate) {
             for (std::uint32_t fact = remains_.fact_begin[predicate]; fact < remains_.fact_begin[predicate + 1];
@@ -111,12 +135,17 @@ private:
         problem_.cost_alternative_begin.push_back(0);
         for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
             for_each_living_node(action, [&](NodeId node) {
-                if (cases_[node].size() == 1) {
-                    task_of_node_[node] = static_cast<TaskId>(problem_.action_count());
-                } else if (cases_[node].size() > 1) {
-                    choices_.push_back({action, node, static_cast<ActionId>(problem_.action_count())});
+                if (!is_written_[node]) {
+                    return;
                 }
-                for (const RemainingCase& one : cases_[node]) {
+                const std::vector<RemainingCase> cases = remaining_cases(remains_, node);
+                if (cases.size() == 1) {
+                    task_of_node_[node] = static_cast<TaskId>(problem_.action_count());
+                } else {
+                    const auto first = static_cast<ActionId>(problem_.action_count());
+                    choices_.push_back({action, node, first, static_cast<std::uint32_t>(cases.size())});
+                }
+                for (const RemainingCase& one : cases) {
                     write_action(one, number_of_fact_, problem_);
                     problem_.action_schema.push_back(action);
                     problem_.action_arguments.add_row(arguments_of(action, node));
@@ -174,7 +203,7 @@ private:
 
     void write_choices() {
         for (const Choice& choice : choices_) {
-            for (std::uint32_t one = 0; one < cases_[choice.node].size(); ++one) {
+            for (std::uint32_t one = 0; one < choice.case_count; ++one) {
                 problem_.method_task.push_back(*task_of_node_[choice.node]);
                 problem_.method_part_begin.push_back(problem_.method_part_begin.back());
                 problem_.method_subtasks.push(choice.first_case + one);
@@ -200,13 +229,13 @@ private:
         std::uint32_t action;
         NodeId node;
         ActionId first_case;
+        std::uint32_t case_count;
     };
 
     const Remains& remains_;
-    std::vector<std::vector<RemainingCase>> cases_;     // by action node; none: dead, or always true and artificial
-    std::vector<bool> is_void_;                         // by action node: an artificial one that is always possible
-    std::vector<NodeId> stands_for_;                    // by node: itself, or an equal one
-    std::map<std::vector<Conjunction>, NodeId> tests_;  // artificial actions by what they test
+    std::vector<bool> is_written_;    // by action node
+    std::vector<bool> is_void_;       // by action node: an artificial one that is always possible
+    std::vector<NodeId> stands_for_;  // by node: itself, or an equal one
     std::optional<Composition> composition_;
     std::vector<std::optional<FactId>> number_of_fact_;  // by fact
     std::vector<std::optional<TaskId>> task_of_node_;

@@ -47,7 +47,8 @@ struct RemainingCase {
 std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action);
 
 // Facts of preconditions and of conditions of costs, and of conditions of effects on such facts.
-std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vector<RemainingCase>>& cases_of_actions);
+// `is_written`: by action node.
+std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is_written);
 
 // Append the precondition, the effects and the cost of a case, with facts numbered by
 // `number_of_fact`.

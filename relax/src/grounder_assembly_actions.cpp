@@ -126,9 +126,9 @@ std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action
     return kept;
 }
 
-std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vector<RemainingCase>>& cases_of_actions) {
+std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is_written) {
     std::vector<bool> is_read(remains.is_initially_true.size(), false);
-    const auto read = [&](const Conjunction& condition) {
+    const auto read = [&](std::span<const Literal> condition) {
         bool is_new = false;
         for (const Literal literal : condition) {
             is_new = is_new || !is_read[fact_of(literal)];
@@ -136,11 +136,23 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vect
         }
         return is_new;
     };
-    for (const std::vector<RemainingCase>& cases : cases_of_actions) {
-        for (const RemainingCase& one : cases) {
+    Rows<Literal> conditions;  // of effects that have one
+    Rows<Literal> changes_under;
+    for (NodeId node = 0; node < is_written.size(); ++node) {
+        if (!is_written[node]) {
+            continue;
+        }
+        remains.limits.stop_if_reached();
+        for (const RemainingCase& one : remaining_cases(remains, node)) {
             read(one.condition);
             for (const auto& [condition, blocks] : one.costs) {
                 std::ranges::for_each(condition, read);
+            }
+            for (const auto& [condition, changes] : one.effects) {
+                if (!condition.empty()) {
+                    conditions.add_row(condition);
+                    changes_under.add_row(changes);
+                }
             }
         }
     }
@@ -148,12 +160,9 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<std::vect
     const auto matters = [&](Literal change) { return is_read[fact_of(change)]; };
     for (bool changed = true; changed;) {
         changed = false;
-        for (const std::vector<RemainingCase>& cases : cases_of_actions) {
-            for (const RemainingCase& one : cases) {
-                for (const auto& [condition, changes] : one.effects) {
-                    changed = (std::ranges::any_of(changes, matters) && read(condition)) || changed;
-                }
-            }
+        for (std::size_t effect = 0; effect < conditions.size(); ++effect) {
+            remains.limits.stop_if_reached();
+            changed = (std::ranges::any_of(changes_under[effect], matters) && read(conditions[effect])) || changed;
         }
     }
     return is_read;

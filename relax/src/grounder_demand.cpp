@@ -80,6 +80,9 @@ bool narrow_by_task(const std::vector<Term>& terms, const std::vector<ObjectSet>
     return true;
 }
 
+// Tasks with more parameters than this get no pairs: these would grow with the square of the parameters.
+constexpr std::size_t kMostPaired = 40;
+
 class DemandFinder {
 public:
     DemandFinder(const Knowledge& knowledge, const ArgumentSets& possible) : knowledge_(knowledge) {
@@ -88,7 +91,7 @@ public:
         for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
             const std::size_t arity = knowledge.task_parameters(task).size();
             demand_.arguments.emplace_back(arity, ObjectSet(problem.object_count));
-            demand_.pairs.emplace_back(arity * arity);
+            demand_.pairs.emplace_back(arity <= kMostPaired ? arity * arity : 0);
         }
         demand_.is_demanded.assign(knowledge.task_count(), false);
         demand_.is_method_demanded.assign(problem.methods.size(), false);
@@ -157,7 +160,7 @@ private:
                 is_new |= set.add(object);
             }
         }
-        for (std::size_t second = 1; second < subtask.arguments.size(); ++second) {
+        for (std::size_t second = 1; demand_.has_pairs(subtask.task) && second < subtask.arguments.size(); ++second) {
             for (std::size_t first = 0; first < second; ++first) {
                 is_new |= hand_down_pairs(method, subtask, first, second);
             }
@@ -206,6 +209,9 @@ private:
     // there the other way round; none if they do not both come from there, or anything goes.
     std::pair<const PairSet*, bool> given_pairs(std::uint32_t method, Term left, Term right) const {
         const LiftedMethod& lifted = knowledge_.problem.methods[method];
+        if (!demand_.has_pairs(lifted.task)) {
+            return {nullptr, false};
+        }
         const auto left_at = std::ranges::find(lifted.task_arguments, left);
         const auto right_at = std::ranges::find(lifted.task_arguments, right);
         if (left_at == lifted.task_arguments.end() || right_at == lifted.task_arguments.end()) {
@@ -260,7 +266,8 @@ void add_pair_relations(Knowledge& knowledge, Demand& demand) {
     demand.pair_relations.resize(knowledge.task_count());
     for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
         const std::vector<ObjectSet>& sets = demand.arguments[task];
-        for (std::uint32_t second = 1; demand.is_demanded[task] && second < sets.size(); ++second) {
+        for (std::uint32_t second = 1; demand.is_demanded[task] && demand.has_pairs(task) && second < sets.size();
+             ++second) {
             for (std::uint32_t first = 0; first < second; ++first) {
                 PairSet& set = demand.pairs_of(task, first, second);
                 if (!set.is_open && 2 * set.pairs.size() <= sets[first].size() * sets[second].size()) {

@@ -33,6 +33,8 @@ struct PairRelation {
 // The objects that the initial task may hand down to each task, by position and by pairs of positions: where goals are
 // tasks, each object is asked for somewhere, but few together.
 struct Demand {
+    // Whether pairs are kept for the task at all.
+    bool has_pairs(std::uint32_t task) const { return !pairs[task].empty(); }
     PairSet& pairs_of(std::uint32_t task, std::size_t first, std::size_t second) {
         return pairs[task][first * arguments[task].size() + second];
     }

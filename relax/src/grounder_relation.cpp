@@ -26,7 +26,7 @@ TupleId Relation::add(std::span<const ObjectId> tuple) {
     if (const auto known = table_.find(hash, equal)) {
         return *known;
     }
-    values_.insert(values_.end(), tuple.begin(), tuple.end());
+    values_.append(tuple.begin(), tuple.end());
     table_.add(hash, size_, [this](TupleId other) { return hash_of((*this)[other]); });
     const TupleId fresh = size_++;
     for (Index& index : indexes_) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "relax/flat_array.hpp"
 #include "relax/id_table.hpp"
 #include "relax/ids.hpp"
 
@@ -54,12 +55,12 @@ public:
 private:
     struct Index {
         std::vector<std::uint32_t> positions;
-        bool is_complete = false;          // holds all tuples, not only the visible ones
-        IdTable table;                     // of keys, numbered in order of arrival
-        std::vector<TupleId> newest;       // by key
-        std::vector<std::uint32_t> count;  // by key
-        std::vector<TupleId> older;        // by tuple: the one before with the same key,
-                                           // or the tuple itself
+        bool is_complete = false;        // holds all tuples, not only the visible ones
+        IdTable table;                   // of keys, numbered in order of arrival
+        FlatArray<TupleId> newest;       // by key
+        FlatArray<std::uint32_t> count;  // by key
+        FlatArray<TupleId> older;        // by tuple: the one before with the same key,
+                                         // or the tuple itself
     };
 
     IndexId index_on(const std::vector<std::uint32_t>& positions, bool is_complete) const;
@@ -69,7 +70,7 @@ private:
     std::size_t arity_;
     TupleId size_ = 0;
     TupleId visible_ = 0;
-    std::vector<ObjectId> values_;
+    FlatArray<ObjectId> values_;
     IdTable table_;
     mutable std::vector<Index> indexes_;  // complete ones are made when they are first asked for
     TupleId counted_ = 0;                 // size at which `distinct_` was counted

@@ -57,7 +57,7 @@ public:
     template <typename HashOf>
     void add(std::uint64_t hash, std::uint32_t id, HashOf hash_of) {
         if (4 * (count_ + 1) > 3 * slots_.size()) {
-            std::vector<Slot> old(slots_.empty() ? 1024 : 2 * slots_.size(), Slot{kEmpty, 0});
+            std::vector<Slot> old(slots_.empty() ? kFirstSlots : 2 * slots_.size(), Slot{kEmpty, 0});
             old.swap(slots_);
             for (const Slot& slot : old) {
                 if (slot.id != kEmpty) {
@@ -83,6 +83,7 @@ private:
         std::uint32_t id;
         std::uint32_t tag;
     };
+    static constexpr std::size_t kFirstSlots = 16;  // a power of two
     static constexpr std::uint32_t kEmpty = std::numeric_limits<std::uint32_t>::max();
 
     std::size_t mask() const { return slots_.size() - 1; }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "relax/flat_array.hpp"
+
 namespace relax {
 
 // Index spaces. Each is dense and starts at 0.
@@ -39,19 +41,18 @@ public:
     template <typename Fill>
     static Rows filled(const std::vector<std::uint32_t>& lengths, Fill fill) {
         Rows rows;
-        rows.ends_.reserve(lengths.size());
         std::uint32_t begin = 0;
         for (const std::uint32_t length : lengths) {
             rows.ends_.push_back(begin);  // moves on to the end as the row is filled
             begin += length;
         }
-        rows.values_.resize(begin);
-        fill([&rows](std::size_t row, Value value) { rows.values_[rows.ends_[row]++] = std::move(value); });
+        rows.values_.resize(begin, Value{});
+        fill([&rows](std::size_t row, const Value& value) { rows.values_[rows.ends_[row]++] = value; });
         return rows;
     }
 
     // Append to the row that `finish_row` will close.
-    void push(Value value) { values_.push_back(std::move(value)); }
+    void push(const Value& value) { values_.push_back(value); }
     void finish_row() { ends_.push_back(static_cast<std::uint32_t>(values_.size())); }
 
     void clear() {
@@ -61,13 +62,13 @@ public:
 
     template <typename Range>
     void add_row(const Range& range) {
-        values_.insert(values_.end(), std::begin(range), std::end(range));
+        values_.append(std::begin(range), std::end(range));
         finish_row();
     }
 
 private:
-    std::vector<std::uint32_t> ends_;
-    std::vector<Value> values_;
+    FlatArray<std::uint32_t> ends_;
+    FlatArray<Value> values_;
 };
 
 }  // namespace relax
