@@ -35,11 +35,11 @@ std::vector<bool> initial_truth(const Expander& expander, std::uint32_t predicat
 
 // Fewer demanded actions leave more predicates static, which may narrow the
 // demand further.
-Demand first_demand(Knowledge& knowledge) {
+Demand first_demand(Knowledge& knowledge, Limits& limits) {
     std::vector<bool> is_demanded(knowledge.task_count(), true);
     while (true) {
         classify_predicates(knowledge, is_demanded);
-        Demand demand = find_demand(knowledge, possible_arguments(knowledge));
+        Demand demand = find_demand(knowledge, possible_arguments(knowledge, limits), limits);
         if (demand.is_demanded == is_demanded) {
             return demand;
         }
@@ -49,10 +49,10 @@ Demand first_demand(Knowledge& knowledge) {
 
 GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& options, Limits& limits) {
     const LiftedProblem& lifted = knowledge.problem;
-    Demand coarse = first_demand(knowledge);
+    Demand coarse = first_demand(knowledge, limits);
     add_pair_relations(knowledge, coarse);
     const Dependents dependents = reach_actions(knowledge, coarse, limits);
-    Demand demand = find_demand(knowledge, reached_arguments(knowledge));
+    Demand demand = find_demand(knowledge, reached_arguments(knowledge, limits), limits);
     add_pair_relations(knowledge, demand);
     reach_tasks(knowledge, demand, limits);
     if (knowledge.relations[knowledge.task_relation(lifted.initial_task)].size() == 0) {

@@ -16,7 +16,7 @@ bool is_worth_copying(std::uint32_t subtasks, std::uint32_t users) {
     return std::uint64_t{users} * subtasks <= std::uint64_t{users} + subtasks + kTaskAndMethod;
 }
 
-Ordering transitive_closure(const LiftedMethod& method) {
+Ordering transitive_closure(const LiftedMethod& method, Limits& limits) {
     const std::size_t count = method.subtasks.size();
     const std::size_t words = (count + 63) / 64;
     std::vector<std::uint64_t> after(count * words, 0);  // a row of bits for every subtask
@@ -29,6 +29,7 @@ Ordering transitive_closure(const LiftedMethod& method) {
     for (std::size_t between = 0; between < count; ++between) {
         for (std::size_t earlier = 0; earlier < count; ++earlier) {
             if (is_after(earlier, between)) {
+                limits.stop_if_reached();
                 for (std::size_t word = 0; word < words; ++word) {
                     after[earlier * words + word] |= after[between * words + word];
                 }
@@ -37,6 +38,7 @@ Ordering transitive_closure(const LiftedMethod& method) {
     }
     Ordering closure;
     for (std::uint32_t earlier = 0; earlier < count; ++earlier) {
+        limits.stop_if_reached();
         for (std::uint32_t later = 0; later < count; ++later) {
             if (is_after(earlier, later)) {
                 closure.emplace_back(earlier, later);
@@ -50,9 +52,13 @@ Ordering transitive_closure(const LiftedMethod& method) {
 
 Composition::Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_void,
                          const std::vector<NodeId>& stands_for, const GroundingOptions& options, Limits& limits)
-    : graph_(graph), is_void_(is_void), stands_for_(stands_for), is_replaced_(graph.is_node_alive.size(), false) {
+    : graph_(graph),
+      limits_(limits),
+      is_void_(is_void),
+      stands_for_(stands_for),
+      is_replaced_(graph.is_node_alive.size(), false) {
     for (const LiftedMethod& method : lifted.methods) {
-        orderings_.push_back(transitive_closure(method));
+        orderings_.push_back(transitive_closure(method, limits));
     }
     if (options.merge_equal) {
         drop_equal_methods(limits);
@@ -79,6 +85,7 @@ void Composition::drop_equal_methods(Limits& limits) {
         const auto [first, end] = graph_.methods_of[node - graph_.action_node_count];
         for (MethodInstanceId method = first; method < end; ++method) {
             if (graph_.is_method_alive[method]) {
+                limits.stop_if_reached();
                 const std::span<const NodeId> subtasks = graph_.method_subtasks[method];
                 std::vector<std::uint32_t> place(subtasks.size());
                 Content content{method, {}, {}};
@@ -96,7 +103,8 @@ void Composition::drop_equal_methods(Limits& limits) {
                 contents.push_back(std::move(content));
             }
         }
-        std::ranges::sort(contents, [](const Content& left, const Content& right) {
+        std::ranges::sort(contents, [&limits](const Content& left, const Content& right) {
+            limits.stop_if_reached();
             return std::tie(left.subtasks, left.ordering, left.method) <
                    std::tie(right.subtasks, right.ordering, right.method);
         });
@@ -121,6 +129,7 @@ void Composition::choose_replaced(Limits& limits) {
     for (NodeId node = graph_.action_node_count; node < nodes; ++node) {
         const auto [first, end] = graph_.methods_of[node - graph_.action_node_count];
         std::uint32_t count = 0;
+        limits.stop_if_reached();
         for (MethodInstanceId method = first; graph_.is_node_alive[node] && method < end; ++method) {
             if (graph_.is_method_alive[method]) {
                 only_method[node] = ++count == 1 ? std::optional(method) : std::nullopt;
@@ -192,6 +201,7 @@ void Composition::append(MethodInstanceId method, std::uint32_t parent, std::uin
     }
     begin.push_back(static_cast<std::uint32_t>(network.subtasks.size()));
     for (const auto& [earlier, later] : orderings_[graph_.method_schema[method]]) {
+        limits_.stop_if_reached();
         for (std::uint32_t first = begin[earlier]; first < begin[earlier + 1]; ++first) {
             for (std::uint32_t second = begin[later]; second < begin[later + 1]; ++second) {
                 network.ordering.emplace_back(first, second);

@@ -50,6 +50,7 @@ private:
     void append(MethodInstanceId method, std::uint32_t parent, std::uint32_t position, ComposedNetwork& network) const;
 
     TaskGraph& graph_;
+    Limits& limits_;
     const std::vector<bool>& is_void_;
     const std::vector<NodeId>& stands_for_;
     std::vector<Ordering> orderings_;  // by lifted method: its transitive closure

@@ -85,7 +85,8 @@ constexpr std::size_t kMostPaired = 40;
 
 class DemandFinder {
 public:
-    DemandFinder(const Knowledge& knowledge, const ArgumentSets& possible) : knowledge_(knowledge) {
+    DemandFinder(const Knowledge& knowledge, const ArgumentSets& possible, Limits& limits)
+        : knowledge_(knowledge), limits_(limits) {
         const LiftedProblem& problem = knowledge.problem;
         methods_of_.resize(knowledge.task_count());
         for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
@@ -96,6 +97,7 @@ public:
         demand_.is_demanded.assign(knowledge.task_count(), false);
         demand_.is_method_demanded.assign(problem.methods.size(), false);
         for (const LiftedMethod& method : problem.methods) {
+            limits.stop_if_reached();
             methods_of_[method.task].push_back(static_cast<std::uint32_t>(ceilings_.size()));
             std::vector<ObjectSet>& slots = ceilings_.emplace_back(parameter_domains(knowledge, method.parameters));
             narrow_by_formula(knowledge, method.constraints, slots);
@@ -117,10 +119,12 @@ public:
             pending.pop_back();
             is_pending[task] = false;
             for (const std::uint32_t method : methods_of_[task]) {
+                limits_.stop_if_reached();
                 if (!is_possible_[method] || !enter(method)) {
                     continue;
                 }
                 for (const LiftedSubtask& subtask : knowledge_.problem.methods[method].subtasks) {
+                    limits_.stop_if_reached();
                     if (hand_down(method, subtask) && !is_pending[subtask.task]) {
                         is_pending[subtask.task] = true;
                         pending.push_back(subtask.task);
@@ -162,6 +166,7 @@ private:
         }
         for (std::size_t second = 1; demand_.has_pairs(subtask.task) && second < subtask.arguments.size(); ++second) {
             for (std::size_t first = 0; first < second; ++first) {
+                limits_.stop_if_reached();
                 is_new |= hand_down_pairs(method, subtask, first, second);
             }
         }
@@ -192,6 +197,7 @@ private:
         } else if (const auto [source, is_swapped] = given_pairs(method, left, right); source != nullptr) {
             const std::size_t count = source->pairs.size();  // source and target may be the same
             for (TupleId pair = 0; pair < count; ++pair) {
+                limits_.stop_if_reached();
                 const ObjectId one = source->pairs[pair][is_swapped ? 1 : 0];
                 const ObjectId other = source->pairs[pair][is_swapped ? 0 : 1];
                 if (slot(left).contains(one) && slot(right).contains(other)) {
@@ -224,6 +230,7 @@ private:
     }
 
     const Knowledge& knowledge_;
+    Limits& limits_;
     std::vector<std::vector<std::uint32_t>> methods_of_;  // by task
     std::vector<std::vector<ObjectSet>> ceilings_;        // by method, parameter: what it can have at all
     std::vector<bool> is_possible_;
@@ -232,9 +239,10 @@ private:
 
 }  // namespace
 
-ArgumentSets possible_arguments(const Knowledge& knowledge) {
+ArgumentSets possible_arguments(const Knowledge& knowledge, Limits& limits) {
     ArgumentSets sets;
     for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
+        limits.stop_if_reached();
         sets.push_back(parameter_domains(knowledge, knowledge.task_parameters(task)));
         if (knowledge.is_action(task)) {
             narrow_by_formula(knowledge, knowledge.problem.actions[task].precondition, sets.back());
@@ -243,12 +251,13 @@ ArgumentSets possible_arguments(const Knowledge& knowledge) {
     return sets;
 }
 
-ArgumentSets reached_arguments(const Knowledge& knowledge) {
+ArgumentSets reached_arguments(const Knowledge& knowledge, Limits& limits) {
     ArgumentSets sets;
     for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
         if (knowledge.is_action(task)) {
             std::vector<ObjectSet>& columns = sets.emplace_back();
             for (std::size_t position = 0; position < knowledge.task_parameters(task).size(); ++position) {
+                limits.stop_if_reached();
                 columns.push_back(column(knowledge, knowledge.task_relation(task), position));
             }
         } else {
@@ -258,8 +267,8 @@ ArgumentSets reached_arguments(const Knowledge& knowledge) {
     return sets;
 }
 
-Demand find_demand(const Knowledge& knowledge, const ArgumentSets& possible) {
-    return DemandFinder(knowledge, possible).find();
+Demand find_demand(const Knowledge& knowledge, const ArgumentSets& possible, Limits& limits) {
+    return DemandFinder(knowledge, possible, limits).find();
 }
 
 void add_pair_relations(Knowledge& knowledge, Demand& demand) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "grounder_facts.hpp"
+#include "relax/limits.hpp"
 
 namespace relax::grounding {
 
@@ -12,10 +13,10 @@ using ArgumentSets = std::vector<std::vector<ObjectSet>>;
 
 // What types, static facts and equalities in action preconditions leave of each
 // task's arguments.
-ArgumentSets possible_arguments(const Knowledge& knowledge);
+ArgumentSets possible_arguments(const Knowledge& knowledge, Limits& limits);
 
 // The same, but of actions only the arguments of reached instances.
-ArgumentSets reached_arguments(const Knowledge& knowledge);
+ArgumentSets reached_arguments(const Knowledge& knowledge, Limits& limits);
 
 // Pairs of objects that are asked for at two positions of a task; open: all of them.
 struct PairSet {
@@ -50,7 +51,7 @@ struct Demand {
     std::vector<std::vector<PairRelation>> pair_relations;  // by task: where pairs are asked for that tell something
 };
 
-Demand find_demand(const Knowledge& knowledge, const ArgumentSets& possible);
+Demand find_demand(const Knowledge& knowledge, const ArgumentSets& possible, Limits& limits);
 
 // Make relations of the demanded pairs, for joins to use.
 void add_pair_relations(Knowledge& knowledge, Demand& demand);

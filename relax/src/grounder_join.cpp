@@ -120,7 +120,7 @@ JoinEngine::JoinEngine(Knowledge& knowledge, std::vector<bool> grows, Limits& li
       triggered_(knowledge.relations.size()) {
     for (RelationId relation = 0; relation < knowledge_.relations.size(); ++relation) {
         if (!grows_[relation]) {
-            knowledge_.relations[relation].show_all();
+            knowledge_.relations[relation].show_all(limits_);
         }
     }
 }
@@ -129,16 +129,17 @@ void JoinEngine::plan() {
     is_planned_ = true;
     for (std::uint32_t number = 0; number < rules_.size(); ++number) {
         const Rule& rule = rules_[number];
+        limits_.stop_if_reached();
         bool is_triggered = false;
         for (std::uint32_t pattern = 0; pattern < rule.patterns.size(); ++pattern) {
             const RelationId relation = rule.patterns[pattern].relation;
             if (grows_[relation]) {
                 is_triggered = true;
-                triggered_[relation].push_back(plan_join(knowledge_, grows_, rule, number, pattern));
+                triggered_[relation].push_back(plan_join(knowledge_, grows_, rule, number, pattern, limits_));
             }
         }
         if (!is_triggered) {
-            joiner_.run(rule, plan_join(knowledge_, grows_, rule, number, std::nullopt), std::nullopt);
+            joiner_.run(rule, plan_join(knowledge_, grows_, rule, number, std::nullopt, limits_), std::nullopt);
         }
     }
 }

@@ -54,7 +54,7 @@ struct JoinPlan {
 // Order a rule's patterns greedily, cheapest first, each test as early as
 // possible; `trigger` is the pattern that comes first.
 JoinPlan plan_join(Knowledge& knowledge, const std::vector<bool>& grows, const Rule& rule, std::uint32_t number,
-                   std::optional<std::uint32_t> trigger);
+                   std::optional<std::uint32_t> trigger, Limits& limits);
 
 // Gets the rule's number and a full binding; may add tuples to growing
 // relations.

@@ -11,11 +11,12 @@ namespace {
 class Planner {
 public:
     Planner(Knowledge& knowledge, const std::vector<bool>& grows, const Rule& rule,
-            std::optional<std::uint32_t> trigger)
+            std::optional<std::uint32_t> trigger, Limits& limits)
         : knowledge_(knowledge),
           grows_(grows),
           rule_(rule),
           trigger_(trigger),
+          limits_(limits),
           bound_(rule.slot_count, false),
           pattern_done_(rule.patterns.size(), false),
           test_done_(rule.tests.size(), false) {}
@@ -47,6 +48,7 @@ private:
         std::optional<std::uint32_t> cheapest;
         double least = std::numeric_limits<double>::infinity();
         for (std::uint32_t pattern = 0; pattern < rule_.patterns.size(); ++pattern) {
+            limits_.stop_if_reached();
             if (!pattern_done_[pattern]) {
                 const double estimate = estimated_matches(rule_.patterns[pattern]);
                 if (!cheapest || estimate < least) {
@@ -108,7 +110,7 @@ private:
             bound_[slot] = true;
         }
         if (!is_trigger) {
-            step.index = knowledge_.relations[pattern.relation].index_on(positions);
+            step.index = knowledge_.relations[pattern.relation].index_on(positions, limits_);
         }
         plan_.steps.push_back(std::move(step));
     }
@@ -184,6 +186,7 @@ private:
     const std::vector<bool>& grows_;
     const Rule& rule_;
     std::optional<std::uint32_t> trigger_;
+    Limits& limits_;
     std::vector<bool> bound_;  // by slot
     std::vector<bool> pattern_done_;
     std::vector<bool> test_done_;
@@ -194,8 +197,8 @@ private:
 }  // namespace
 
 JoinPlan plan_join(Knowledge& knowledge, const std::vector<bool>& grows, const Rule& rule, std::uint32_t number,
-                   std::optional<std::uint32_t> trigger) {
-    JoinPlan plan = Planner(knowledge, grows, rule, trigger).plan();
+                   std::optional<std::uint32_t> trigger, Limits& limits) {
+    JoinPlan plan = Planner(knowledge, grows, rule, trigger, limits).plan();
     plan.rule = number;
     return plan;
 }

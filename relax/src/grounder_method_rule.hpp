@@ -6,8 +6,7 @@
 
 namespace relax::grounding {
 
-// The rule whose patterns are the method's subtasks, in their order, and whose
-// tests are its constraints.
+// The rule whose patterns are the method's distinct subtasks, and whose tests are its constraints.
 Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t number);
 
 }  // namespace relax::grounding

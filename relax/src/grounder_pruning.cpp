@@ -12,9 +12,10 @@ namespace {
 // is reached.
 class LiteralReachability {
 public:
-    LiteralReachability(const Cases& cases, const std::vector<bool>& is_initially_true)
+    LiteralReachability(const Cases& cases, const std::vector<bool>& is_initially_true, Limits& limits)
         : cases_(cases), is_initially_true_(is_initially_true), begin_(2 * is_initially_true.size() + 1, 0) {
         for (std::uint32_t number = 0; number < count(); ++number) {
+            limits.stop_if_reached();
             for (const Literal literal : condition(number)) {
                 ++begin_[literal + 1];
             }
@@ -23,6 +24,7 @@ public:
         watchers_.resize(begin_.back());
         std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
         for (std::uint32_t number = 0; number < count(); ++number) {
+            limits.stop_if_reached();
             for (const Literal literal : condition(number)) {
                 watchers_[next[literal]++] = number;
             }
@@ -36,6 +38,7 @@ public:
         is_owner_reached_.assign(cases_.begin.size() - 1, false);
         unmet_.clear();
         for (std::uint32_t number = 0; number < count(); ++number) {
+            limits.stop_if_reached();
             unmet_.push_back(static_cast<std::uint32_t>(condition(number).size()) + (is_case(number) ? 0 : 1));
         }
         for (std::uint32_t fact = 0; fact < is_initially_true_.size(); ++fact) {
@@ -51,6 +54,7 @@ public:
             const Literal literal = pending_.back();
             pending_.pop_back();
             for (std::uint32_t at = begin_[literal]; at < begin_[literal + 1]; ++at) {
+                limits.stop_if_reached();
                 meet(watchers_[at]);
             }
         }
@@ -139,7 +143,7 @@ bool bury_cases(const TaskGraph& graph, Cases& cases) {
 }  // namespace
 
 std::vector<bool> prune(TaskGraph& graph, Cases& cases, const std::vector<bool>& is_initially_true, Limits& limits) {
-    LiteralReachability reachability(cases, is_initially_true);
+    LiteralReachability reachability(cases, is_initially_true, limits);
     while (true) {
         std::vector<bool> is_reached = reachability.run(limits);
         for (CaseId number = 0; number < cases.owner.size(); ++number) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "grounder_formulas.hpp"
 #include "grounder_join.hpp"
@@ -15,8 +17,12 @@ Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t
     for (std::uint32_t slot = 0; slot < method.parameters.size(); ++slot) {
         rule.domains[slot] = &demand.method_slots[number][slot];
     }
+    // A task that is there several times with the same arguments needs to be reached but once.
+    std::set<std::pair<std::uint32_t, std::vector<Term>>> seen;
     for (const LiftedSubtask& subtask : method.subtasks) {
-        rule.patterns.push_back({knowledge.task_relation(subtask.task), subtask.arguments});
+        if (seen.emplace(subtask.task, subtask.arguments).second) {
+            rule.patterns.push_back({knowledge.task_relation(subtask.task), subtask.arguments});
+        }
     }
     for (const PairRelation& pairs : demand.pair_relations[method.task]) {
         rule.patterns.push_back(
@@ -92,7 +98,7 @@ void reach_tasks(Knowledge& knowledge, const Demand& demand, Limits& limits) {
         const auto number = static_cast<std::uint32_t>(method_of_rule.size());
         method_of_rule.push_back(method);
         const Rule rule = accomplishing_rule(knowledge, demand, method);
-        joiner.run(rule, plan_join(knowledge, nothing_grows, rule, number, std::nullopt), std::nullopt);
+        joiner.run(rule, plan_join(knowledge, nothing_grows, rule, number, std::nullopt, limits), std::nullopt);
     }
 }
 

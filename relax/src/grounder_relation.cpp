@@ -37,13 +37,15 @@ TupleId Relation::add(std::span<const ObjectId> tuple) {
     return fresh;
 }
 
-IndexId Relation::index_on(const std::vector<std::uint32_t>& positions) { return index_on(positions, false); }
-
-IndexId Relation::complete_index_on(const std::vector<std::uint32_t>& positions) const {
-    return index_on(positions, true);
+IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, Limits& limits) {
+    return index_on(positions, false, limits);
 }
 
-IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, bool is_complete) const {
+IndexId Relation::complete_index_on(const std::vector<std::uint32_t>& positions, Limits& limits) const {
+    return index_on(positions, true, limits);
+}
+
+IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, bool is_complete, Limits& limits) const {
     const auto known = std::ranges::find_if(
         indexes_, [&](const Index& index) { return index.is_complete == is_complete && index.positions == positions; });
     const auto id = static_cast<IndexId>(known - indexes_.begin());
@@ -52,6 +54,7 @@ IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, bool is_
         index.positions = positions;
         index.is_complete = is_complete;
         for (TupleId tuple = 0; tuple < (is_complete ? size_ : visible_); ++tuple) {
+            limits.stop_if_reached();
             insert(index, tuple);
         }
         indexes_.push_back(std::move(index));
@@ -68,8 +71,9 @@ void Relation::show_next() {
     ++visible_;
 }
 
-void Relation::show_all() {
+void Relation::show_all(Limits& limits) {
     while (visible_ < size_) {
+        limits.stop_if_reached();
         show_next();
     }
 }
@@ -131,14 +135,17 @@ std::size_t Relation::distinct_values(std::uint32_t position) {
         counted_ = size_;
         distinct_.clear();
         for (std::size_t column = 0; column < arity_; ++column) {
-            std::vector<ObjectId> values;
-            values.reserve(size_);
+            std::vector<bool> is_seen;
+            std::size_t count = 0;
             for (TupleId tuple = 0; tuple < size_; ++tuple) {
-                values.push_back((*this)[tuple][column]);
+                const ObjectId value = (*this)[tuple][column];
+                if (value >= is_seen.size()) {
+                    is_seen.resize(value + 1, false);
+                }
+                count += is_seen[value] ? 0 : 1;
+                is_seen[value] = true;
             }
-            std::ranges::sort(values);
-            const auto repeated = std::ranges::unique(values);
-            distinct_.push_back(values.size() - repeated.size());
+            distinct_.push_back(count);
         }
     }
     return distinct_[position];

@@ -10,6 +10,7 @@
 #include "relax/flat_array.hpp"
 #include "relax/id_table.hpp"
 #include "relax/ids.hpp"
+#include "relax/limits.hpp"
 
 namespace relax::grounding {
 
@@ -36,16 +37,16 @@ public:
 
     // The index on these positions (ascending, perhaps none), made where there is
     // none yet.
-    IndexId index_on(const std::vector<std::uint32_t>& positions);
+    IndexId index_on(const std::vector<std::uint32_t>& positions, Limits& limits);  // throws Stopped
     // Let joins see the next tuple, or all of them.
     void show_next();
-    void show_all();
+    void show_all(Limits& limits);  // throws Stopped
     // The tuples in the index with these values at its positions, newest first.
     std::optional<TupleId> first(IndexId index, std::span<const ObjectId> key) const;
     std::optional<TupleId> next(IndexId index, TupleId tuple) const;
 
     // The same for all tuples, visible or not: for questions whose answer must not depend on how far joins have come.
-    IndexId complete_index_on(const std::vector<std::uint32_t>& positions) const;
+    IndexId complete_index_on(const std::vector<std::uint32_t>& positions, Limits& limits) const;
     // How many tuples have these values; of complete indexes.
     std::size_t count(IndexId index, std::span<const ObjectId> key) const;
 
@@ -63,7 +64,7 @@ private:
                                          // or the tuple itself
     };
 
-    IndexId index_on(const std::vector<std::uint32_t>& positions, bool is_complete) const;
+    IndexId index_on(const std::vector<std::uint32_t>& positions, bool is_complete, Limits& limits) const;
     void insert(Index& index, TupleId tuple) const;
     std::optional<std::uint32_t> find_key(const Index& index, std::span<const ObjectId> key) const;
 

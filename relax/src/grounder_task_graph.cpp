@@ -18,7 +18,7 @@ public:
           joiner_(knowledge, limits, [this](std::uint32_t method, Bindings& bindings) { add(method, bindings); }) {
         NodeId nodes = 0;
         for (std::uint32_t task = 0; task < knowledge.task_count(); ++task) {
-            knowledge.relations[knowledge.task_relation(task)].show_all();
+            knowledge.relations[knowledge.task_relation(task)].show_all(limits);
             graph_.task_begin.push_back(nodes);
             nodes += knowledge.relations[knowledge.task_relation(task)].size();
         }
@@ -62,7 +62,7 @@ private:
                 Rule& rule = rules_[number] = method_rule(knowledge_, demand_, number);
                 rule.patterns.insert(rule.patterns.begin(),
                                      {knowledge_.task_relation(method.task), method.task_arguments});
-                plans_[number] = plan_join(knowledge_, nothing_grows, rule, number, 0);
+                plans_[number] = plan_join(knowledge_, nothing_grows, rule, number, 0, limits_);
                 methods_of_task_[method.task - problem.actions.size()].push_back(number);
                 mark_free_slots(number);
             }
@@ -149,6 +149,7 @@ void prune_bottom_up(TaskGraph& graph, Limits& limits) {
     std::vector<std::uint32_t> missing(graph.method_task.size(), 0);
     for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
         if (graph.is_method_alive[method]) {
+            limits.stop_if_reached();
             for (const NodeId subtask : graph.method_subtasks[method]) {
                 ++begin[subtask + 1];
             }
@@ -167,6 +168,7 @@ void prune_bottom_up(TaskGraph& graph, Limits& limits) {
     };
     for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
         if (graph.is_method_alive[method]) {
+            limits.stop_if_reached();
             for (const NodeId subtask : graph.method_subtasks[method]) {
                 users[next[subtask]++] = method;
                 ++missing[method];

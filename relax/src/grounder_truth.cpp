@@ -95,7 +95,7 @@ Matcher::Choice Matcher::choose(const Variables& unbound, const Bindings& bindin
             continue;
         }
         const Relation& relation = knowledge_.relations[guide->symbol];
-        const IndexId index = relation.complete_index_on(positions_);
+        const IndexId index = relation.complete_index_on(positions_, limits_);
         const std::size_t count = relation.count(index, key_);
         if (count < fewest || (count == fewest && best.atom == nullptr)) {
             fewest = count;
