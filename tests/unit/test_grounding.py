@@ -10,7 +10,7 @@ import pytest
 from statehtn.core.grounding import PLAIN, Grounding, ground
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.reader import read_hddl_text
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import LimitReached, Limits, resident_mb
 from statehtn.model import GroundAction, GroundProblem, Problem
 from statehtn.model.status import Status
 
@@ -354,3 +354,46 @@ def test_a_limit_holds_in_loops_over_quantified_variables() -> None:
     with pytest.raises(LimitReached) as reached:
         ground(lifted, Limits.starting_now(0.2))
     assert reached.value.status is Status.TIME_LIMIT
+
+
+def wide(parameters: int) -> Problem:
+    """One action with so many parameters, and one instance of it."""
+    variables, objects = " ".join(f"?x{at}" for at in range(parameters)), " ".join(["o"] * parameters)
+    return read_hddl_text(
+        f"""(define (domain d) (:types thing) (:predicates (p {variables} - thing) (done))
+          (:action a :parameters ({variables} - thing) :precondition (p {variables}) :effect (done)))""",
+        f"""(define (problem p) (:domain d) (:objects o u - thing) (:htn :ordered-subtasks (a {objects}))
+          (:init (p {objects})))""",
+    )
+
+
+def test_memory_does_not_grow_with_the_square_of_the_parameters() -> None:
+    """Pairs of 800 parameters would take more than 2 GB."""
+    found = ground(wide(800), Limits(memory_mb=resident_mb() + 300))
+    assert found.handle.action_count == 1
+
+
+def test_a_task_that_stands_in_a_method_many_times_is_joined_once() -> None:
+    """Planning a join for each of 1200 equal subtasks, of which each is as good as the others, takes a minute."""
+    lifted = problem(
+        f"""(:task go :parameters ())
+        (:method again :parameters () :task (go) :ordered-subtasks (and {"(go) " * 1200}))
+        (:method none :parameters () :task (go) :ordered-subtasks ())"""
+    )
+    assert ground(lifted, Limits.starting_now(30)).handle.method_count == 3
+
+
+def test_a_guard_is_instantiated_only_for_what_fixed_facts_allow() -> None:
+    """Each of 40 places may be wet: without the roads there would be 40^4 guards, in half a gigabyte."""
+    places = range(40)
+    lifted = problem(
+        """(:task go :parameters ())
+        (:method m :parameters (?a ?b ?c ?e ?f - place) :task (go)
+          :precondition (and (road ?a ?b) (road ?b ?c) (road ?c ?e) (wet ?a) (wet ?b) (wet ?c) (wet ?e) (road ?e ?f))
+          :ordered-subtasks (dry ?a))
+        (:action dry :parameters (?l - place) :effect (not (wet ?l)))""",
+        init=" ".join(f"(wet l{at})" for at in places) + " ".join(f"(road l{at} l{at + 1})" for at in places[:-1]),
+        places=len(places),
+    )
+    found = ground(lifted, Limits(memory_mb=resident_mb() + 100))
+    assert sum(schema is None for schema in map(found.encoding.actions.__getitem__, found.handle.action_schema)) == 36
