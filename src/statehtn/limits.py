@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import math
 import os
+import signal
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from types import FrameType
 
 from statehtn.errors import UsageError
 from statehtn.expected import number
@@ -23,6 +28,9 @@ class LimitReached(Exception):
 ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)
 """Exceptions that end a phase before it has anything to show."""
 
+
+SECONDS_BETWEEN_LOOKS = 0.05
+"""At the limits, while a library computes that knows of none."""
 
 STOPS = (Status.TIME_LIMIT, Status.MEMORY_LIMIT, Status.INTERRUPTED)
 """The statuses of runs that something ended before they were done."""
@@ -91,6 +99,43 @@ def _positive(name: str, value: float | None) -> float | None:
     if not limit > 0:
         raise UsageError(f"the {name} must be a positive number, found {limit:g}")
     return None if math.isinf(limit) else limit
+
+
+@contextmanager
+def watched(limits: Limits) -> Iterator[None]:
+    """Let a library compute that knows of no limits: a timer's signal looks at them meanwhile.
+
+    Signals reach the main thread of a process only; elsewhere, and where the system has no such timer, the limits are
+    looked at when the library has come to its end.
+
+    Raises:
+        LimitReached: a limit is reached.
+    """
+    has_signals = threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer")
+    if not has_signals or (limits.deadline is None and limits.memory_mb is None):
+        yield
+        limits.check()
+        return
+
+    def look(_signal: int, frame: FrameType | None) -> None:
+        while frame is not None:  # a module is not left half imported
+            if frame.f_code.co_filename.startswith("<frozen importlib"):
+                return
+            frame = frame.f_back
+        try:
+            limits.check()
+        except LimitReached:
+            signal.setitimer(signal.ITIMER_REAL, 0)  # once is enough
+            raise
+
+    handler = signal.signal(signal.SIGALRM, look)
+    timer = signal.setitimer(signal.ITIMER_REAL, SECONDS_BETWEEN_LOOKS, SECONDS_BETWEEN_LOOKS)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, *timer)
+        signal.signal(signal.SIGALRM, handler)
+    limits.check()
 
 
 def resident_mb(process: int | None = None) -> float:

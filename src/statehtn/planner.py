@@ -17,7 +17,7 @@ from statehtn.expected import function
 from statehtn.found_plan import SECONDS_TO_VALIDATE, validated_and_priced
 from statehtn.hddl import read_hddl
 from statehtn.interrupt import OnInterrupt, check_interrupt, returned
-from statehtn.limits import ENDINGS, STOPS, Limits, status_of
+from statehtn.limits import ENDINGS, STOPS, Limits, status_of, watched
 from statehtn.log import log
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
@@ -180,7 +180,8 @@ def measured_read(
         if costs is not None:
             from statehtn.build.cost_file import read_costs  # few runs need it
 
-            read = read_costs(costs).apply(read)
+            with watched(limits):
+                read = read_costs(costs).apply(read)
     except ENDINGS as ending:
         read = status_of(ending)
     seconds = time.perf_counter() - start

@@ -245,7 +245,8 @@ def test_the_command_line_takes_them(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert main(["validate", *AV, output, "--costs", str(file)]) == 0
     assert "gamma(a=2, scale=0.5)" in capsys.readouterr().out
     assert main(["plan", *AV, "--costs", str(file), "--attitude", "averse", "--alpha", "5"]) == 30
-    assert "the cost of (stop): gamma(a=2, scale=0.5): E[e^(alpha C)] is infinite" in capsys.readouterr().err
+    message = f"the cost of (stop): gamma(a=2, scale=0.5) ({file}: entry 1 of 'costs'): E[e^(alpha C)] is infinite"
+    assert message in capsys.readouterr().err
     assert main(["plan", *AV, "--costs", str(tmp_path / "none")]) == 30
     assert capsys.readouterr().err.startswith("error: cannot read")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -14,6 +15,8 @@ from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.expected import file_name
 from statehtn.keyed_file import KeyedTable, read_tables
 from statehtn.model import CostDistribution, CostLaw
+from statehtn.model.scipy_call import scipy_call
+from statehtn.model.scipy_cost import ScipyCost
 
 OWN_KEYS = ("action", "arguments")
 
@@ -113,11 +116,17 @@ def _distribution(table: KeyedTable, _: Path) -> CostLaw:
     for key, value in given.items():
         if key not in known:
             table.complain("parameters", f"some of {', '.join(known)} for '{name}'", key)
-        _number(table, "parameters", value)
+        for one in value if isinstance(value, list) else [value]:
+            _number(table, "parameters", one)
     missing = [shape for shape in shapes if shape not in given]
     if missing:
         raise InputError(f"{table.place}: 'parameters': '{name}' needs {', '.join(missing)}")
-    return CostDistribution.from_scipy(family(**given))
+    with scipy_call(
+        f"'{name}' with {', '.join(f'{key} = {value}' for key, value in given.items()) or 'no parameters'}"
+    ):
+        frozen = family(**given)
+    law = CostDistribution.from_scipy(frozen)
+    return replace(law, origin=table.place) if isinstance(law, ScipyCost) else law
 
 
 LAWS: Mapping[str, tuple[Callable[[KeyedTable, Path], CostLaw], tuple[str, ...]]] = MappingProxyType(
@@ -169,6 +178,8 @@ def _numbers_in(table: KeyedTable, path: Path) -> list[float]:
         raise InputError(f"{table.place}: 'samples': cannot read '{path}': {error.strerror}") from None
     except UnicodeDecodeError:
         raise InputError(f"{table.place}: 'samples': '{path}' is no text file") from None
+    except ValueError:  # a null character in the name
+        raise InputError(f"{table.place}: 'samples': cannot read '{path}': no file has such a name") from None
     numbers = []
     for word in words:
         try:

@@ -11,7 +11,7 @@ from functools import cached_property
 import statehtn._relax as _relax
 from statehtn.core.encode import Encoding, encode
 from statehtn.errors import UnsupportedError
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import LimitReached, Limits, watched
 from statehtn.model import (
     CostBlock,
     CostDistribution,
@@ -217,7 +217,8 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         raise UnsupportedError(
             f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?"
         )
-    laws, part_laws = _CostLaws(encoding, handle, limits).all()
+    with watched(limits):
+        laws, part_laws = _CostLaws(encoding, handle, limits).all()
     return Grounding(problem, encoding, handle, laws, part_laws, switches)
 
 

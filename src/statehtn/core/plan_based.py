@@ -10,7 +10,7 @@ from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.pricing import price
 from statehtn.core.progress import Progress
 from statehtn.core.staged_run import SearchOutcome, StagedRun
-from statehtn.limits import Limits
+from statehtn.limits import Limits, watched
 from statehtn.risk import Utility
 
 PLAN_BASED_HEURISTICS = ("tdg", "blind")
@@ -50,7 +50,9 @@ def search_plans(
     options.heuristic = HEURISTICS[heuristic].kind
     options.branches_over_all = branch == "all"
     options.checks_preconditions = checks_preconditions
-    run = StagedRun(grounding, price(grounding, utility), limits, progress)
+    with watched(limits):
+        prices = price(grounding, utility)
+    run = StagedRun(grounding, prices, limits, progress)
     run.stage(options)
     while run.sharpen():
         run.stage(options)

@@ -14,7 +14,7 @@ from statehtn.core.progress import Progress
 from statehtn.core.staged_run import SearchOutcome, StagedRun
 from statehtn.core.stages import SEARCHES, core_options
 from statehtn.core.switches import SearchSwitches
-from statehtn.limits import Limits
+from statehtn.limits import Limits, watched
 from statehtn.model.status import Status
 from statehtn.risk import Utility
 
@@ -80,7 +80,9 @@ def improving_plans(
 
     All but the last have the status `SOLVED`. Only `anytime` has several stages that find plans.
     """
-    run = StagedRun(grounding, price(grounding, utility), limits, progress)
+    with watched(limits):
+        prices = price(grounding, utility)
+    run = StagedRun(grounding, prices, limits, progress)
     for stage in SEARCHES[search]:
         options = core_options(stage, grounding, heuristic, weight, switches)
         best = run.best

@@ -16,7 +16,7 @@ from statehtn.core.progress import TopProgress
 from statehtn.core.switches import SearchSwitches
 from statehtn.core.top_run import TopRun
 from statehtn.core.trace import TraceReader
-from statehtn.limits import Limits
+from statehtn.limits import Limits, watched
 from statehtn.model.plan import Plan
 from statehtn.model.status import Status
 from statehtn.risk import Utility
@@ -98,6 +98,8 @@ def find_top_plans(
         switches: refinements to leave out (some mean nothing here: see `relax::TopPlansOptions`).
         limits_ways: keep at most k ways to every pair of a state and a network.
     """
+    with watched(limits):
+        prices = price(grounding, utility)
     options = _relax.TopPlansOptions()
     options.count = k
     options.distinct = DISTINCT[distinct]
@@ -106,7 +108,7 @@ def find_top_plans(
     search.heuristic = HEURISTICS[heuristic].kind
     switches.apply(search)
     options.search = search
-    run = TopRun(grounding, price(grounding, utility), options, limits, progress)
+    run = TopRun(grounding, prices, options, limits, progress)
     run.search()
     while run.sharpen():
         run.search()

@@ -229,7 +229,7 @@ def checked_outcomes(outcomes: Iterable[tuple[float, float]]) -> tuple[tuple[flo
     """Return outcomes as a `CostDistribution` has them; for its errors see `CostDistribution.of`."""
     merged: dict[float, float] = {}
     for probability, cost in outcomes:
-        if not (math.isfinite(probability) and probability >= 0):
+        if not 0 <= probability <= 1 + PROBABILITY_TOLERANCE:
             raise InputError(f"a probability must be between 0 and 1, found {probability:g}")
         if not (math.isfinite(cost) and cost >= 0):
             raise InputError(f"a cost must be a finite number and at least 0, found {cost:g}")

@@ -9,13 +9,13 @@ Distributions*, and Johnson, Kemp and Kotz, *Univariate Discrete Distributions*.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError, UsageError
+from statehtn.model.scipy_call import scipy_call
 
 if TYPE_CHECKING:
     from statehtn.model.scipy_cost import ScipyCost
@@ -120,14 +120,14 @@ def exponential_mean(law: ScipyCost, slope: float) -> tuple[float, float]:
     value, error = _closed_form(law, slope) or _integrated(law, slope)
     if math.isinf(value):
         raise InputError(
-            f"{law}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is as "
-            f"bad to a risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated law, "
-            f"samples)"
+            f"{law.title}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is "
+            f"as bad to a risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated "
+            f"law, samples)"
         )
     value = min(max(value, law.mean), law.most) if slope > 0 else min(max(value, law.least), law.mean)
     if not error <= ACCURACY * max(value, abs(value - law.least)):
         raise InputError(
-            f"{law}: its certainty equivalent for alpha = {abs(slope):g} cannot be integrated well enough "
+            f"{law.title}: its certainty equivalent for alpha = {abs(slope):g} cannot be integrated well enough "
             f"(found {value:g}, to {error:.2g}); give outcomes or samples instead"
         )
     return value, error
@@ -136,18 +136,18 @@ def exponential_mean(law: ScipyCost, slope: float) -> tuple[float, float]:
 def _closed_form(law: ScipyCost, slope: float) -> tuple[float, float] | None:
     if law.family not in CLOSED_FORMS or law.identity is not None:
         return None
-    shapes = dict(law.parameters)
-    scale, shift = shapes.pop("scale", 1.0), shapes.pop("loc", 0.0)
-    value = CLOSED_FORMS[law.family](shapes, slope * scale)
-    return None if value is None else (shift + value / slope, 0.0)
+    shapes = {name: value for name, value in law.parameters if not isinstance(value, tuple)}
+    value = CLOSED_FORMS[law.family](shapes, slope * law.scale)
+    return None if value is None else (law.shift + value / slope, 0.0)
 
 
 def _integrated(law: ScipyCost, slope: float) -> tuple[float, float]:
+    """Integrate over the standard variable: near `loc` floats are coarse, near 0 they are not."""
     from statehtn.model.quadrature import has_infinite_moment, log_moment
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # of scipy, about single points; the error counts them in
-        if slope > 0 and has_infinite_moment(law, slope):
+    standard, standard_slope = law.standard, slope * law.scale
+    with scipy_call(law.title):
+        if slope > 0 and has_infinite_moment(standard, standard_slope):
             return math.inf, 0.0
-        value, error = log_moment(law, slope)
+        value, error = log_moment(standard, standard_slope)
     return law.least + value / slope, error / abs(slope)

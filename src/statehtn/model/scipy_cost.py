@@ -11,6 +11,7 @@ from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.expected import number
 from statehtn.model.cost_distribution import CostDistribution
 from statehtn.model.law import CostLaw, checked_probability, is_of_scipy
+from statehtn.model.scipy_call import scipy_call
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -32,45 +33,77 @@ class ScipyCost(CostLaw):
         parameters: pairs (name, value): shapes, then `loc` and `scale` where they are not 0 and 1.
         frozen: the distribution itself.
         identity: what tells families of one name apart that `scipy.stats` does not have; None where it has it.
+        origin: where it is stated, for messages.
     """
 
     family: str
-    parameters: tuple[tuple[str, float], ...]
+    parameters: tuple[tuple[str, float | tuple[float, ...]], ...]
     frozen: Any = field(compare=False, repr=False)
     identity: int | None = field(default=None, repr=False)
+    origin: str = field(default="", compare=False, repr=False)
 
     @property
     def is_discrete(self) -> bool:
         """Whether there are single costs that have a probability."""
         return hasattr(self.frozen.dist, "pmf")
 
+    @property
+    def title(self) -> str:
+        """The law, and where it is stated."""
+        return f"{self} ({self.origin})" if self.origin else str(self)
+
+    @property
+    def shift(self) -> float:
+        """The parameter `loc`: the cost is `shift + scale Z`, where `Z` is the family's standard variable."""
+        return float(dict(self.parameters).get("loc", 0.0))  # type: ignore[arg-type]
+
+    @property
+    def scale(self) -> float:
+        """The parameter `scale`."""
+        return float(dict(self.parameters).get("scale", 1.0))  # type: ignore[arg-type]
+
+    @cached_property
+    def standard(self) -> ScipyCost:
+        """The law of the family's standard variable, with `loc` 0 and `scale` 1, which may be negative."""
+        shapes = tuple(item for item in self.parameters if item[0] not in ("loc", "scale"))
+        with scipy_call(self.title):
+            return ScipyCost(self.family, shapes, self.frozen.dist(**dict(shapes)), self.identity, self.origin)
+
     @cached_property
     def mean(self) -> float:
         """The expected cost."""
-        return float(self.frozen.mean())
+        with scipy_call(self.title):
+            return float(self.frozen.mean())
 
     @cached_property
     def standard_deviation(self) -> float:
         """The standard deviation of the cost; may be infinite."""
-        return float(self.frozen.std())
+        with scipy_call(self.title):
+            return float(self.frozen.std())
 
     @cached_property
     def least(self) -> float:
         """The least cost that is possible."""
-        return float(self.frozen.support()[0])
+        with scipy_call(self.title):
+            return float(self.frozen.support()[0])
 
     @cached_property
     def most(self) -> float:
         """The largest cost that is possible; may be infinite."""
-        return float(self.frozen.support()[1])
+        with scipy_call(self.title):
+            return float(self.frozen.support()[1])
 
     def cdf(self, cost: float) -> float:
         """Return the probability of paying at most `cost`."""
-        return float(self.frozen.cdf(number(cost, "a cost")))
+        number(cost, "a cost")
+        with scipy_call(self.title):
+            return float(self.frozen.cdf(cost))
 
     def exceedance(self, budget: float) -> float:
         """Return the probability of paying more than `budget`."""
-        return float(self.frozen.sf(number(budget, "a budget")))
+        number(budget, "a budget")
+        with scipy_call(self.title):
+            return float(self.frozen.sf(budget))
 
     def quantile(self, probability: float) -> float:
         """Return the least cost that is not exceeded with at least this probability.
@@ -80,7 +113,8 @@ class ScipyCost(CostLaw):
         """
         if checked_probability(probability, "the probability of a quantile") == 0:
             return self.least
-        return float(self.frozen.ppf(probability))
+        with scipy_call(self.title):
+            return float(self.frozen.ppf(probability))
 
     def cvar(self, level: float) -> float:
         """Return the mean cost of the worst `1 - level` of all cases.
@@ -137,7 +171,8 @@ class ScipyCost(CostLaw):
         """Return the probability of each of so many cells from the least cost on; the last has all that is beyond."""
         import numpy
 
-        below = self.frozen.cdf(self.least + width * numpy.arange(1, count))
+        with scipy_call(self.title):
+            below = self.frozen.cdf(self.least + width * numpy.arange(1, count))
         return numpy.diff(below, prepend=0.0, append=1.0)
 
     def discretised(self, outcomes: int = 20) -> CostDistribution:
@@ -155,7 +190,11 @@ class ScipyCost(CostLaw):
         return CostDistribution.of((1 / outcomes, max(mean, self.least)) for mean in means)
 
     def __str__(self) -> str:
-        return f"{self.family}({', '.join(f'{name}={value:g}' for name, value in self.parameters)})"
+        return f"{self.family}({', '.join(f'{name}={_number_text(value)}' for name, value in self.parameters)})"
+
+
+def _number_text(value: float | tuple[float, ...]) -> str:
+    return f"[{', '.join(map(_number_text, value))}]" if isinstance(value, tuple) else f"{value:g}"
 
 
 def law_of(distribution: Any) -> CostLaw:
@@ -166,6 +205,8 @@ def law_of(distribution: Any) -> CostLaw:
         )
     family = str(distribution.dist.name)
     law = ScipyCost(family, _parameters(distribution), distribution, _identity(distribution))
+    if not law.is_discrete and any(isinstance(value, tuple) for _, value in law.parameters):
+        raise InputError(f"the parameters of '{family}' must be numbers, found {law}")
     least, most = law.least, law.most
     if math.isnan(least) or math.isnan(most):
         raise InputError(f"{law}: the parameters of '{family}' are out of their range")
@@ -176,6 +217,11 @@ def law_of(distribution: Any) -> CostLaw:
         )
     if law.is_discrete and most - least < MOST_OUTCOMES:
         return _listed(law)
+    if law.is_discrete and math.isfinite(most):
+        raise UnsupportedError(
+            f"{law} has {most - least + 1:.0f} outcomes, more than {MOST_OUTCOMES}; give a continuous law that is "
+            f"close to it, or outcomes or samples"
+        )
     from statehtn.model.moment_generating import CLOSED_FORMS
 
     if law.is_discrete and family not in CLOSED_FORMS:
@@ -189,19 +235,27 @@ def _listed(law: ScipyCost) -> CostDistribution:
     import numpy
 
     costs = law.least + numpy.arange(law.most - law.least + 1)
-    masses = law.frozen.pmf(costs)
+    with scipy_call(law.title):
+        masses = law.frozen.pmf(costs)
     return CostDistribution.of(zip(masses.tolist(), costs.tolist(), strict=True))
 
 
-def _parameters(distribution: Any) -> tuple[tuple[str, float], ...]:
+def _parameters(distribution: Any) -> tuple[tuple[str, float | tuple[float, ...]], ...]:
     shapes = [name.strip() for name in (distribution.dist.shapes or "").split(",") if name.strip()]
     names = [*shapes, "loc", "scale"]
     given = dict(zip(names, distribution.args, strict=False)) | dict(distribution.kwds)
     try:
-        values = {name: float(given[name]) for name in names if name in given}
-    except TypeError:
+        values = {name: _parameter(given[name]) for name in names if name in given}
+    except (TypeError, ValueError):
         raise InputError(f"the parameters of '{distribution.dist.name}' must be numbers, found {given}") from None
     return tuple(item for item in values.items() if item not in (("loc", 0.0), ("scale", 1.0)))
+
+
+def _parameter(value: Any) -> float | tuple[float, ...]:
+    """Return a number, or the numbers of a list: the Poisson binomial law has one."""
+    if isinstance(value, list | tuple) or getattr(value, "ndim", 0) == 1:
+        return tuple(map(float, value))
+    return float(value)
 
 
 def _identity(distribution: Any) -> int | None:

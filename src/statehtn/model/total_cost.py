@@ -142,9 +142,10 @@ def _convolution(laws: Sequence[CostDistribution]) -> CostDistribution | None:
         if len(totals) > MOST_TOTALS:
             return None
     try:
-        return CostDistribution.of((weight / whole, total / unit) for total, weight in totals.items())
+        outcomes = [(weight / whole, total / unit) for total, weight in totals.items()]
     except OverflowError:
         raise InputError("the total cost is too large for a floating-point number") from None
+    return CostDistribution.of(outcomes)
 
 
 def _integers(fractions: Sequence[Fraction]) -> list[int]:
