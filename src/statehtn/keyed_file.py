@@ -8,23 +8,25 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from statehtn.errors import InputError
+from statehtn.limits import Limits
+from statehtn.read_file import read_named
 
 
-def read_tables(file: Path) -> Mapping[str, Any]:
+def read_tables(file: Path, limits: Limits = Limits()) -> Mapping[str, Any]:
     """Read a TOML file, or a JSON file if its name ends in `.json`.
 
     Raises:
         InputError: the file cannot be read, is malformed, or is no table of keys.
+        LimitReached: a limit was reached.
     """
     import json  # here, since few runs read such files
     import tomllib
 
     kind = "JSON" if file.suffix.lower() == ".json" else "TOML"
+    data = read_named(f"'{file}'", file, limits)
     try:
-        text = file.read_bytes().decode("utf-8-sig" if kind == "JSON" else "utf-8")
+        text = data.decode("utf-8-sig" if kind == "JSON" else "utf-8")
         tables = json.loads(text) if kind == "JSON" else tomllib.loads(text)
-    except OSError as error:
-        raise InputError(f"cannot read '{file}': {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise InputError(f"{file}: this is no {kind}: byte {error.start} is not UTF-8") from None
     except ValueError as error:  # of either reader, or a number with thousands of digits

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import signal
-import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -111,6 +109,9 @@ def watched(limits: Limits) -> Iterator[None]:
     Raises:
         LimitReached: a limit is reached.
     """
+    import signal  # here, since importing the package must be quick
+    import threading
+
     has_signals = threading.current_thread() is threading.main_thread() and hasattr(signal, "setitimer")
     if not has_signals or (limits.deadline is None and limits.memory_mb is None):
         yield

@@ -176,12 +176,12 @@ def measured_read(
     start = time.perf_counter()
     read: Problem | Status
     try:
-        read = read_hddl(domain, problem, strict=strict, limits=limits)
-        if costs is not None:
-            from statehtn.build.cost_file import read_costs  # few runs need it
+        with watched(limits):
+            read = read_hddl(domain, problem, strict=strict, limits=limits)
+            if costs is not None:
+                from statehtn.build.cost_file import read_costs  # few runs need it
 
-            with watched(limits):
-                read = read_costs(costs).apply(read)
+                read = read_costs(costs, limits).apply(read)
     except ENDINGS as ending:
         read = status_of(ending)
     seconds = time.perf_counter() - start

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -14,14 +14,24 @@ from statehtn.build.cost_table import CostEntry, CostTable
 from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.expected import file_name
 from statehtn.keyed_file import KeyedTable, read_tables
+from statehtn.limits import Limits
 from statehtn.model import CostDistribution, CostLaw
 from statehtn.model.scipy_call import scipy_call
 from statehtn.model.scipy_cost import ScipyCost
+from statehtn.read_file import read_named
 
 OWN_KEYS = ("action", "arguments")
 
 
-def read_costs(file: str | os.PathLike[str]) -> CostTable:
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where names of further files count from, and the limits of reading them."""
+
+    folder: Path
+    limits: Limits
+
+
+def read_costs(file: str | os.PathLike[str], limits: Limits = Limits()) -> CostTable:
     """Read costs for the actions of a domain from a TOML file, or a JSON file if its name ends in `.json`.
 
     The file has a list `costs` of tables: `action`, `arguments` where only some instances are meant, and one of
@@ -31,9 +41,10 @@ def read_costs(file: str | os.PathLike[str]) -> CostTable:
         InputError: the file cannot be read, or says something that makes no sense; the message names file, entry and
             key. Names are only checked by `CostTable.apply`.
         UsageError: a `distribution` needs scipy, which is not installed.
+        LimitReached: a limit was reached.
     """
     path = Path(file_name(file, "the costs"))
-    whole = KeyedTable(str(path), read_tables(path))
+    whole = KeyedTable(str(path), read_tables(path, limits))
     whole.check_keys(("costs",))
     tables = whole.values.get("costs")
     if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
@@ -41,7 +52,9 @@ def read_costs(file: str | os.PathLike[str]) -> CostTable:
     entries = []
     for number, values in enumerate(tables, 1):
         table = KeyedTable(f"{path}: entry {number} of 'costs'", values)
-        entries.append(CostEntry(table.place, table.text("action"), _arguments(table), _law(table, path.parent)))
+        entries.append(
+            CostEntry(table.place, table.text("action"), _arguments(table), _law(table, _Place(path.parent, limits)))
+        )
     return CostTable(tuple(entries))
 
 
@@ -54,7 +67,7 @@ def _arguments(table: KeyedTable) -> tuple[str, ...] | None:
     return tuple(given)
 
 
-def _law(table: KeyedTable, folder: Path) -> CostLaw:
+def _law(table: KeyedTable, where: _Place) -> CostLaw:
     kinds = [kind for kind in LAWS if kind in table.values]
     if len(kinds) != 1:
         raise InputError(
@@ -64,7 +77,7 @@ def _law(table: KeyedTable, folder: Path) -> CostLaw:
     make, also = LAWS[kind]
     table.check_keys((*OWN_KEYS, kind, *also))
     try:
-        return make(table, folder)
+        return make(table, where)
     except UsageError:
         raise
     except StateHtnError as error:
@@ -73,31 +86,31 @@ def _law(table: KeyedTable, folder: Path) -> CostLaw:
         raise type(error)(f"{table.place}: '{kind}': {error.message}") from None
 
 
-def _certain(table: KeyedTable, _: Path) -> CostLaw:
+def _certain(table: KeyedTable, _: _Place) -> CostLaw:
     return CostDistribution.certain(_number(table, "cost", table.values["cost"]))
 
 
-def _outcomes(table: KeyedTable, _: Path) -> CostLaw:
+def _outcomes(table: KeyedTable, _: _Place) -> CostLaw:
     return CostDistribution.of(_pairs(table, "outcomes", "probability, cost"))
 
 
-def _samples(table: KeyedTable, folder: Path) -> CostLaw:
+def _samples(table: KeyedTable, where: _Place) -> CostLaw:
     given = table.values["samples"]
     if isinstance(given, str):
-        return CostDistribution.from_samples(_numbers_in(table, folder / given))
+        return CostDistribution.from_samples(_numbers_in(table, where.folder / given, where.limits))
     if not isinstance(given, list):
         table.complain("samples", "a list of numbers, or the name of a file with numbers", given)
     return CostDistribution.from_samples([_number(table, "samples", value) for value in given])
 
 
-def _counts(table: KeyedTable, _: Path) -> CostLaw:
+def _counts(table: KeyedTable, _: _Place) -> CostLaw:
     counts = _by_cost(table, "counts", "count, cost")
     prior = table.values.get("prior", 1)
     weights = _by_cost(table, "prior", "weight, cost") if isinstance(prior, list) else _number(table, "prior", prior)
     return CostDistribution.from_counts(counts, weights)
 
 
-def _distribution(table: KeyedTable, _: Path) -> CostLaw:
+def _distribution(table: KeyedTable, _: _Place) -> CostLaw:
     try:
         import scipy.stats as families
     except ImportError:
@@ -129,7 +142,7 @@ def _distribution(table: KeyedTable, _: Path) -> CostLaw:
     return replace(law, origin=table.place) if isinstance(law, ScipyCost) else law
 
 
-LAWS: Mapping[str, tuple[Callable[[KeyedTable, Path], CostLaw], tuple[str, ...]]] = MappingProxyType(
+LAWS: Mapping[str, tuple[Callable[[KeyedTable, _Place], CostLaw], tuple[str, ...]]] = MappingProxyType(
     {
         "cost": (_certain, ()),
         "outcomes": (_outcomes, ()),
@@ -170,16 +183,15 @@ def _by_cost(table: KeyedTable, key: str, what: str) -> dict[float, float]:
     return found
 
 
-def _numbers_in(table: KeyedTable, path: Path) -> list[float]:
+def _numbers_in(table: KeyedTable, path: Path, limits: Limits) -> list[float]:
     """Read numbers that are separated by white space, commas or semicolons."""
     try:
-        words = path.read_text(encoding="utf-8").replace(",", " ").replace(";", " ").split()
-    except OSError as error:
-        raise InputError(f"{table.place}: 'samples': cannot read '{path}': {error.strerror}") from None
+        text = read_named(f"'{path}'", path, limits).decode("utf-8")
+    except InputError as error:
+        raise InputError(f"{table.place}: 'samples': {error.message}") from None
     except UnicodeDecodeError:
         raise InputError(f"{table.place}: 'samples': '{path}' is no text file") from None
-    except ValueError:  # a null character in the name
-        raise InputError(f"{table.place}: 'samples': cannot read '{path}': no file has such a name") from None
+    words = text.replace(",", " ").replace(";", " ").split()
     numbers = []
     for word in words:
         try:

@@ -14,6 +14,7 @@ from statehtn.hddl.action_list import read_actions
 from statehtn.hddl.plan_format import read_plan, write_plan
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import Problem, Step
+from statehtn.read_file import read_named
 from statehtn.validate import Validation
 from statehtn.verify import validate
 
@@ -54,9 +55,6 @@ def _object(validation: Validation, steps: tuple[Step, ...], problem: Problem) -
 
 def _read_text(name: str) -> str:
     try:
-        with open(name, encoding="utf-8") as file:
-            return file.read()
-    except OSError as error:
-        raise InputError(f"cannot read '{name}': {error.strerror}") from None
+        return read_named(f"'{name}'", name).decode("utf-8")
     except UnicodeDecodeError as error:
         raise InputError(f"'{name}' is no text file: byte {error.start} cannot be decoded") from None

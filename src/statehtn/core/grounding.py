@@ -200,7 +200,8 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
             `CostWarning` (see `statehtn.model.unknown_cost`).
         UnsupportedError: a precondition falls into too many cases.
     """
-    encoding = encode(problem, switches.split_methods)
+    with watched(limits):
+        encoding = encode(problem, switches.split_methods)
     handle = _relax.ground(
         encoding.handle,
         switches.merge_equal,

@@ -11,6 +11,7 @@ from operator import itemgetter
 from typing import cast
 
 import statehtn._relax as _relax
+from statehtn.collector import without_collector
 from statehtn.core.grounding import Grounding
 from statehtn.core.schemes import Scheme
 from statehtn.model import CostLaw, CostSum, Decomposition, Plan, Step
@@ -135,13 +136,19 @@ class TraceReader:
         self._steps: dict[int, Step | None] = {}  # by ground action; None for artificial ones
         self._laws: dict[tuple[int, ...], CostLaw] = {}
         self._methods: dict[int, _GroundMethod] = {}
+        self._latest: tuple[_relax.SearchResult, Plan] | None = None
 
     def read(self, result: _relax.SearchResult) -> Plan:
         """Return the plan of a search result, with the costs that the search has seen; the result must have one.
 
         Artificial actions vanish, a choice between cases of an action becomes the action, and methods that were split
-        or applied at once stand as in the domain.
+        or applied at once stand as in the domain. The plan of a result is read once as long as no other is asked for.
         """
+        if self._latest is None or self._latest[0] is not result:
+            self._latest = result, self._read(result)
+        return self._latest[1]
+
+    def _read(self, result: _relax.SearchResult) -> Plan:
         nodes, due = result.decomposition, iter(result.due_parts)
         steps: list[Step] = []
         costs: list[CostLaw] = []
@@ -153,7 +160,8 @@ class TraceReader:
                 step_of[number] = len(steps)
                 steps.append(step)
                 costs.append(self._law(action, tuple(islice(due, count))))
-        bindings, children = self._decomposition(nodes, step_of)
+        with without_collector():
+            bindings, children = self._decomposition(nodes, step_of)
         root = tuple(bindings[parameter.name] for parameter in self._grounding.problem.parameters)
         return Plan(tuple(steps), in_order(children), root, tuple(costs))
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from statehtn.collector import without_collector
 from statehtn.expected import expect
 from statehtn.hddl.plan_lines import Lines, read_lines
 from statehtn.hddl.plan_matching import Child, ChildrenMatcher, topological_order
@@ -73,10 +74,11 @@ def read_plan(text: str, problem: Problem, file: str = "<plan>") -> Plan:
     """
     expect(text, str, "the plan must be a text in the IPC 2020 format", "write_plan(plan, problem) makes one")
     expect_problem(problem)
-    lines = read_lines(text, problem, file)
-    lines.unwrap_top()
-    order = lines.children_first()
-    return _Builder(lines, problem).build(order)
+    with without_collector():
+        lines = read_lines(text, problem, file)
+        lines.unwrap_top()
+        order = lines.children_first()
+        return _Builder(lines, problem).build(order)
 
 
 class _Builder:

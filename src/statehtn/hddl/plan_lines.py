@@ -110,10 +110,16 @@ class Names:
         self._tasks = Spellings((*problem.domain.tasks, *problem.domain.actions))
         self._methods = Spellings(problem.domain.methods)
         self._objects = Spellings(problem.all_objects)
+        self._steps: dict[tuple[str, ...], Step] = {}
 
-    def task(self, name: str, *arguments: str) -> tuple[str, tuple[str, ...]]:
-        """Return the name of a task and those of its arguments."""
-        return self._tasks.find(name) or name, tuple(self._objects.find(word) or word for word in arguments)
+    def task(self, words: tuple[str, ...]) -> Step:
+        """Return a task, primitive or not, by the words of its name and its arguments; long plans repeat few."""
+        found = self._steps.get(words)
+        if found is None:
+            name, *arguments = words
+            objects = tuple(self._objects.find(word) or word for word in arguments)
+            found = self._steps[words] = Step(self._tasks.find(name) or name, objects)
+        return found
 
     def method(self, name: str) -> str:
         """Return the name of a method."""
@@ -174,15 +180,15 @@ def _read_task(line: Line, lines: Lines, names: Names) -> None:
     if "->" not in words:
         if lines.root_line is not None:
             raise InputError("expected '->' and a method: actions stand before the line 'root'", line.place(1))
-        lines.steps[number] = Step(*names.task(*words[1:]))
+        lines.steps[number] = names.task(tuple(words[1:]))
         return
     arrow = words.index("->")
     if arrow < 2 or len(words) < arrow + 2:
         raise InputError("expected '<number> <task> <arguments> -> <method> <numbers>'", line.place(arrow))
     if names.is_of_pandapi(words[arrow + 1], is_method=True):
         raise _raw(line, arrow + 1)
-    task, method = names.task(*words[1:arrow]), names.method(words[arrow + 1])
-    lines.nodes[number] = Node(line, *task, method, line.numbers_from(arrow + 2))
+    task, method = names.task(tuple(words[1:arrow])), names.method(words[arrow + 1])
+    lines.nodes[number] = Node(line, task.action, task.arguments, method, line.numbers_from(arrow + 2))
 
 
 def _raw(line: Line, index: int) -> InputError:

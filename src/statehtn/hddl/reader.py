@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from functools import cache
 from os import PathLike
 
+from statehtn.collector import without_collector
 from statehtn.errors import StateHtnError, UsageError
 from statehtn.expected import expect, file_name
 from statehtn.hddl.dead_ends import warn_of_dead_ends
@@ -51,7 +50,10 @@ def read_hddl(
     diagnostics = Diagnostics(strict)
     try:
         return _read(
-            (domain_file, read_text(domain_file)), (problem_file, read_text(problem_file)), diagnostics, limits
+            (domain_file, read_text(domain_file, limits)),
+            (problem_file, read_text(problem_file, limits)),
+            diagnostics,
+            limits,
         )
     finally:
         diagnostics.emit(2)
@@ -109,21 +111,9 @@ def _read(domain: tuple[str, str], problem: tuple[str, str], diagnostics: Diagno
         return None
 
     vocabulary = Vocabulary(objects_of_the_problem)
-    with _without_collector():
+    with without_collector():
         read = read_domain(Source(domain_text, domain_file, limits), vocabulary, diagnostics, limits)
         source = Source(problem_text, problem_file, limits)
         whole = read_problem(source, read, vocabulary, diagnostics, limits)
         warn_of_dead_ends(whole, vocabulary, source, diagnostics)
         return whole
-
-
-@contextmanager
-def _without_collector() -> Iterator[None]:
-    """Switch the collector of cycles off: looking through what is read again and again takes a third of the time."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()

@@ -11,11 +11,11 @@ from array import array
 from collections.abc import Iterator
 from itertools import islice
 from os import PathLike, fspath
-from pathlib import Path
 
 from statehtn.errors import InputError, Place
 from statehtn.hddl.spelling import UNSEEN
 from statehtn.limits import Limits
+from statehtn.read_file import read_pieces
 
 MAX_NESTING = 200
 """Open parentheses at one point of a file; formulas are read and evaluated recursively, so this must stay well below
@@ -197,19 +197,25 @@ class Source:
         )
 
 
-def read_text(path: str | PathLike[str]) -> str:
+def read_text(path: str | PathLike[str], limits: Limits = Limits()) -> str:
     """Return the text of a file.
 
     Raises:
         InputError: the file cannot be read, is binary or is not UTF-8.
+        LimitReached: a limit was reached.
     """
     file = fspath(path)
+    pieces: list[bytes] = []
     try:
-        data = Path(file).read_bytes()
+        for piece in read_pieces(file, limits):
+            pieces.append(piece)
+            if b"\0" in piece:  # perhaps a device without an end
+                break
     except OSError as error:
         raise InputError(f"cannot read {file}: {(error.strerror or str(error)).lower()}") from None
     except ValueError as error:  # a name with a NUL in it
         raise InputError(f"cannot read {file!r}: {error}") from None
+    data = b"".join(pieces)
     if (nul := data.find(b"\0")) >= 0:
         raise InputError("the file is binary (a NUL byte), expected HDDL text", _place_of_byte(file, data, nul))
     try:

@@ -139,10 +139,7 @@ class Vocabulary:
             return True
         key = (left, right)
         if key not in self._overlaps:
-            self._overlaps[key] = any(
-                not self.supertypes(kind).isdisjoint(left) and not self.supertypes(kind).isdisjoint(right)
-                for kind in self.types.parents
-            )
+            self._overlaps[key] = not self.types.subtypes(left).isdisjoint(self.types.subtypes(right))
         return self._overlaps[key]
 
     def supertypes(self, kind: str) -> frozenset[str]:
@@ -154,7 +151,7 @@ class Vocabulary:
 
     def objects_of(self, types: Types) -> frozenset[str]:
         """Return the names of the objects that are of one of the types."""
-        kinds = {kind for kind in {*self.types.parents, ROOT_TYPE} if not self.supertypes(kind).isdisjoint(types)}
+        kinds = self.types.subtypes(types)
         return frozenset(name for name, kind in self.objects.items() if kind in kinds)
 
     def term(self, node: Node, scope: Scope, reporter: Reporter) -> str:

@@ -135,24 +135,17 @@ class Problem:
         return {**self.domain.constants, **self.objects}
 
     @cached_property
-    def objects_by_type(self) -> dict[str, tuple[str, ...]]:
-        """For every type the objects of it or of a type below it, in order of declaration."""
-        types = self.domain.types
-        found: dict[str, list[str]] = {name: [] for name in types.parents}
-        for name, kind in self.all_objects.items():
-            for above in types.supertypes(kind):
-                found.setdefault(above, []).append(name)
-        return {kind: tuple(names) for kind, names in found.items()}
+    def _objects_of(self) -> dict[tuple[str, ...], tuple[str, ...]]:
+        return {}
 
     def objects_of(self, types: tuple[str, ...]) -> tuple[str, ...]:
         """Return the objects of any of the types, in order of declaration."""
-        if len(types) == 1:
-            return self.objects_by_type.get(types[0], ())
-        wanted = {name for kind in types for name in self.objects_by_type.get(kind, ())}
-        return tuple(name for name in self.all_objects if name in wanted)
-
-    def __hash__(self) -> int:
-        return hash((self.name, self.domain, frozenset(self.objects.items()), self.initial_state, self.goal))
+        found = self._objects_of.get(types)
+        if found is None:
+            kinds = self.domain.types.subtypes(types)
+            found = tuple(name for name, kind in self.all_objects.items() if kind in kinds)
+            self._objects_of[types] = found
+        return found
 
     def __repr__(self) -> str:
         counts = f"objects {len(self.all_objects)}, facts {len(self.initial_state)}, tasks {len(self.network.subtasks)}"

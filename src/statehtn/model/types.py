@@ -46,6 +46,23 @@ class TypeHierarchy:
                     pending.append(parent)
         return frozenset(found)
 
+    def subtypes(self, names: Iterable[str]) -> frozenset[str]:
+        """Return the types and everything below them, in time linear in the number of all types."""
+        wanted = set(names)
+        if ROOT_TYPE in wanted:
+            return frozenset((ROOT_TYPE, *self.parents))
+        below: dict[str, list[str]] = {}
+        for name, above in self.parents.items():
+            for parent in above:
+                below.setdefault(parent, []).append(name)
+        pending = list(wanted)
+        while pending:
+            for name in below.get(pending.pop(), ()):
+                if name not in wanted:
+                    wanted.add(name)
+                    pending.append(name)
+        return frozenset(wanted)
+
     def is_subtype(self, name: str, of: Iterable[str]) -> bool:
         """Tell whether the type is one of the given types or below one of them."""
         return not self.supertypes(name).isdisjoint(of)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from statehtn.collector import without_collector
 from statehtn.display.law import brief
 from statehtn.display.validation import validation_html
 from statehtn.limits import Limits
@@ -111,12 +112,13 @@ def validate(problem: Problem, plan: Plan, limits: Limits = Limits()) -> Validat
     """
     world = World(expect_problem(problem), limits)
     expect_plan(plan)
-    execution = execute(plan, world)
-    tree = PlanTree(plan, world)
-    matching = match_networks(tree, world)
-    reasons = [*execution.reasons, *matching.reasons]
-    if not matching.reasons:
-        reasons += check_ordering(tree, matching, world, execution.history)
+    with without_collector():
+        execution = execute(plan, world)
+        tree = PlanTree(plan, world)
+        matching = match_networks(tree, world)
+        reasons = [*execution.reasons, *matching.reasons]
+        if not matching.reasons:
+            reasons += check_ordering(tree, matching, world, execution.history)
     return Validation(told_once(reasons), execution.costs)
 
 
