@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "relax/cost.hpp"
@@ -68,23 +70,58 @@ private:
     std::uint32_t deepest_ = 0;
 };
 
+// Facts on which a cost part depends, with repetitions.
+void append_facts(const GroundProblem& problem, CostPartId part, std::vector<FactId>& positive,
+                  std::vector<FactId>& negative) {
+    for (const std::uint32_t alternative : problem.cost_alternatives(part)) {
+        std::ranges::copy(problem.cost_conditions[alternative], std::back_inserter(positive));
+        std::ranges::copy(problem.cost_negative_conditions[alternative], std::back_inserter(negative));
+    }
+}
+
+// The parts of an action's cost in groups that have no fact in common, each in order: one of several parts is due in
+// every state only if that is so of their parts in one group.
+std::vector<std::vector<CostPartId>> unrelated_groups(const GroundProblem& problem, ActionId action) {
+    std::vector<std::vector<CostPartId>> groups;
+    std::unordered_map<FactId, std::size_t> group_of;
+    std::vector<FactId> facts;
+    for (const CostPartId part : problem.cost_parts(action)) {
+        std::vector<CostPartId> group{part};
+        facts.clear();
+        append_facts(problem, part, facts, facts);
+        for (std::size_t at = 0; at < facts.size(); ++at) {
+            const auto known = group_of.find(facts[at]);
+            if (known == group_of.end() || known->second == groups.size()) {
+                group_of[facts[at]] = groups.size();
+                continue;
+            }
+            for (const CostPartId other : std::exchange(groups[known->second], {})) {
+                group.push_back(other);
+                append_facts(problem, other, facts, facts);
+            }
+            known->second = groups.size();
+        }
+        std::ranges::sort(group);
+        groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
 // Only then can one of the parts be due in every state.
 bool reads_some_fact_both_ways(const GroundProblem& problem, std::span<const CostPartId> parts) {
     std::vector<FactId> positive;
     std::vector<FactId> negative;
     for (const CostPartId part : parts) {
-        for (const std::uint32_t alternative : problem.cost_alternatives(part)) {
-            std::ranges::copy(problem.cost_conditions[alternative], std::back_inserter(positive));
-            std::ranges::copy(problem.cost_negative_conditions[alternative], std::back_inserter(negative));
-        }
+        append_facts(problem, part, positive, negative);
     }
     std::ranges::sort(positive);
     return std::ranges::any_of(negative, [&](FactId fact) { return std::ranges::binary_search(positive, fact); });
 }
 
 // Keep just as many of the parts as it takes for one of them to be due in every state.
-void make_minimal(std::vector<CostPartId>& parts, StateWithout& state) {
+void make_minimal(std::vector<CostPartId>& parts, StateWithout& state, Limits& limits) {
     for (std::size_t at = parts.size(); at-- > 0;) {
+        limits.stop_if_reached();
         const CostPartId part = parts[at];
         parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(at));
         if (state.exists(parts)) {
@@ -93,30 +130,40 @@ void make_minimal(std::vector<CostPartId>& parts, StateWithout& state) {
     }
 }
 
+// As long as one of the parts with a price is due in every state, shift the least of their prices.
+void shift_within(const GroundProblem& problem, ActionId action, std::span<const CostPartId> group, Prices& prices,
+                  Limits& limits) {
+    StateWithout state(problem);
+    std::vector<CostPartId> parts;
+    while (true) {
+        parts.clear();
+        std::ranges::copy_if(group, std::back_inserter(parts), [&](CostPartId part) { return prices.parts[part] > 0; });
+        if (!reads_some_fact_both_ways(problem, parts) || state.exists(parts)) {
+            return;
+        }
+        parts.resize(state.needed());
+        make_minimal(parts, state, limits);
+        Cost least = std::numeric_limits<Cost>::max();
+        for (const CostPartId part : parts) {
+            least = std::min(least, prices.parts[part]);
+        }
+        for (const CostPartId part : parts) {
+            prices.parts[part] -= least;
+        }
+        prices.actions[action] = add_bounds(prices.actions[action], least);
+    }
+}
+
 }  // namespace
 
 Prices shift_costs(const GroundProblem& problem, Prices prices, Limits& limits) {
-    StateWithout state(problem);
-    std::vector<CostPartId> parts;
     for (ActionId action = 0; action < problem.action_count(); ++action) {
-        while (true) {
-            limits.stop_if_reached();
-            parts.clear();
-            std::ranges::copy_if(problem.cost_parts(action), std::back_inserter(parts),
-                                 [&](CostPartId part) { return prices.parts[part] > 0; });
-            if (!reads_some_fact_both_ways(problem, parts) || state.exists(parts)) {
-                break;
-            }
-            parts.resize(state.needed());
-            make_minimal(parts, state);
-            Cost least = std::numeric_limits<Cost>::max();
-            for (const CostPartId part : parts) {
-                least = std::min(least, prices.parts[part]);
-            }
-            for (const CostPartId part : parts) {
-                prices.parts[part] -= least;
-            }
-            prices.actions[action] = add_bounds(prices.actions[action], least);
+        limits.stop_if_reached();
+        if (problem.cost_parts(action).empty()) {
+            continue;
+        }
+        for (const std::vector<CostPartId>& group : unrelated_groups(problem, action)) {
+            shift_within(problem, action, group, prices, limits);
         }
     }
     return prices;

@@ -126,6 +126,18 @@ def test_the_lesser_cost_of_two_alternatives_is_due_in_any_case() -> None:
     assert values == {"tdg": pytest.approx(4), "lmcut": pytest.approx(6)}
 
 
+def test_many_alternatives_are_told_apart_at_once() -> None:
+    """Each window costs one thing open and another one shut, whatever the other windows are."""
+    heating = f"{EACH} (forall (?w - window) (when (not (open ?w)) (increase (total-cost) 1)))"
+    count = 150
+    network = " ".join(f"(see-to w{number})" for number in range(count))
+    problem = house(heating, f":ordered-subtasks (and {network} (night))", count)
+    outcome = find_plans(ground(problem), utility_for("neutral"), heuristic="lmcut")
+    assert outcome.status is Status.OPTIMAL
+    assert outcome.lower_bound == pytest.approx(3 * count)
+    assert outcome.expanded < 5 * count
+
+
 def test_blocks_on_the_same_condition_are_one_part() -> None:
     heating = f"{EACH} (forall (?w - window) (when (open ?w) (probabilistic 0.5 (increase (total-cost) 4) 0.5 ())))"
     problem = house(heating, ":ordered-subtasks (and (see-to w0) (heat))", windows=1)

@@ -256,6 +256,8 @@ class _CostLaws:
                 self.limits.check()  # a callable may take its time
             laws.append(self.base_law(number, schema, action))
             for part in range(*self.handle.cost_parts(number)):
+                if part % 1024 == 0:
+                    self.limits.check()
                 blocks = self.read_blocks(self.handle.cost_part_blocks(part))
                 part_laws.append(self.law(number, schema, action, blocks))
         self.warn_of_missing_numbers()

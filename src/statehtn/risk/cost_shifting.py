@@ -29,12 +29,28 @@ def shifted_prices(law: CostLaw, parts: Sequence[GroundCostPart], utility: Utili
     """
     own = utility.risk_cost(law)
     prices = [utility.risk_cost(part.cost) for part in parts]
-    while cover := _cover([number for number, price in enumerate(prices) if price > 0], parts):
-        least = min(prices[number] for number in cover)
-        own += least
-        for number in cover:
-            prices[number] -= least
+    for group in _unrelated_groups(parts):
+        while cover := _cover([number for number in group if prices[number] > 0], parts):
+            least = min(prices[number] for number in cover)
+            own += least
+            for number in cover:
+                prices[number] -= least
     return own, prices
+
+
+def _unrelated_groups(parts: Sequence[GroundCostPart]) -> list[list[int]]:
+    """Return the parts in groups that have no fact in common, each in order."""
+    groups: dict[int, tuple[list[int], set[int]]] = {}  # by the number of the latest part: parts, and their facts
+    group_of: dict[int, int] = {}  # by fact
+    for number, part in enumerate(parts):
+        members, facts = [number], {fact for true, false in part.alternatives for fact in true | false}
+        for known in {group_of[fact] for fact in facts if fact in group_of}:
+            more_members, more_facts = groups.pop(known)
+            members += more_members
+            facts |= more_facts
+        groups[number] = (sorted(members), facts)
+        group_of.update(dict.fromkeys(facts, number))
+    return [members for members, _ in groups.values()]
 
 
 def _cover(priced: list[int], parts: Sequence[GroundCostPart]) -> list[int]:
