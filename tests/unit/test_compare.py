@@ -14,8 +14,10 @@ import pytest
 import statehtn
 from statehtn.cli import main
 from statehtn.cli.exit_codes import ExitCode
+from statehtn.errors import UsageError
 from statehtn.experiments import runner
 from statehtn.experiments.instances import find_instances
+from statehtn.experiments.record_files import RecordFiles
 from statehtn.experiments.records import COLUMNS, KEY_COLUMNS
 from statehtn.experiments.run import Grid, Run
 from statehtn.experiments.runner import STATUSES_WITHOUT_RESULT, execute
@@ -151,6 +153,55 @@ def test_it_goes_on_where_it_stopped(tree: Path, tmp_path: Path) -> None:
     assert {tuple(key) for key in records} == {key[:7] for key in keys}
 
 
+@pytest.mark.parametrize(("number", "word"), [(9, "errors"), (15, None)])
+def test_runs_killed_from_outside_are_done_again_on_request(
+    tree: Path, tmp_path: Path, number: int, word: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A run that is killed is an error until it is asked for again; an interrupted one (15) is not recorded at all."""
+    output = tmp_path / "results.csv"
+    command = ["--domain", "*Errands", "--output", str(output)]
+    assert compare(tree, *command, "--problem", "p1", "p3") == 0
+    before = output.read_text().splitlines()
+    with monkeypatch.context() as patch:
+        python(tmp_path, f"import os; os.kill(os.getpid(), {number})", patch)
+        assert compare(tree, *command) == (0 if word else 130)
+    expected = {"p1": "optimal", "p2": "error", "p3": "input-error"} if word else {"p1": "optimal", "p3": "input-error"}
+    assert {row["problem"]: row["status"] for row in rows_of(output)} == expected
+    if word:
+        recorded = output.read_text()
+        assert compare(tree, *command) == 0
+        assert compare(tree, *command, "--retry", "killed") == 0
+        assert compare(tree, *command, "--retry", "errors", "--problem", "p1") == 0
+        assert compare(tree, *command, "--retry", "errors", "--time-limit", "5") == 2
+        assert output.read_text() == recorded
+    assert compare(tree, *command, *(["--retry", word] if word else [])) == 0
+    assert output.read_text().splitlines()[:3] == before
+    statuses = {row["problem"]: row["status"] for row in rows_of(output)}
+    assert statuses == {"p1": "optimal", "p2": "unsolvable", "p3": "input-error"}
+    last = json_lines(tmp_path / "results.jsonl")[-1]
+    assert (last["key"][1], last["status"]) == ("p2", "unsolvable")
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
+        ["python", "results.csv", "results.jsonl", "tree"]
+    )
+
+
+def test_a_table_that_is_replaced_stays_locked(tree: Path, tmp_path: Path) -> None:
+    table, link = tmp_path / "results.csv", tmp_path / "link.csv"
+    link.symlink_to(table)
+    assert compare(tree, "--domain", "*Errands", "--output", str(link)) == 0
+    table.chmod(0o640)
+    runs = [replace(run_of(tree, f"p{number}", 60), memory_limit=4000) for number in (1, 2, 3)]
+    with RecordFiles(str(link)) as files:
+        files.forget(runs, ["optimal"])
+        assert [run.instance.problem for run in files.missing(runs[:1])] == ["p1"]
+        for name in (table, link):
+            with pytest.raises(UsageError, match="another comparison is writing it"):
+                RecordFiles(str(name))
+    assert [row["problem"] for row in rows_of(table)] == ["p2", "p3"]
+    assert link.is_symlink()
+    assert table.stat().st_mode & 0o777 == 0o640
+
+
 def test_rows_on_standard_output(tree: Path, capsys: Capture) -> None:
     assert compare(tree, "--domain", "*Errands") == 0
     captured = capsys.readouterr()
@@ -188,6 +239,8 @@ def test_other_limits_are_not_mixed(tree: Path, tmp_path: Path, capsys: Capture)
         (["--suite", "ipc", "--root", "TREE", "--alpha", "1"], 2, "alpha"),
         (["--suite", "ipc", "--root", "TREE", "--attitude", "seeking", "--alpha", "-1"], 2, "alpha"),
         (["--suite", "ipc", "--root", "TREE", "--heuristic", "magic"], 2, "magic"),
+        (["--suite", "ipc", "--root", "TREE", "--retry", "magic"], 2, "errors"),
+        (["--suite", "ipc", "--root", "TREE", "--retry", "errors"], 2, "--output"),
         (["--suite", "ipc", "--root", "TREE", "--output", "/no/such/folder/x.csv"], 2, "/no/such/folder"),
         (["--suite", "ipc", "--root", "TREE", "--output", "EMPTY"], 2, "regular file"),
         (["--suite", "ipc", "--root", "TREE", "--output", "EMPTY/x.jsonl"], 2, "*.csv"),

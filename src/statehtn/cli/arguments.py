@@ -254,6 +254,11 @@ def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:
         help="append a row for each run as it ends, and all about it to FILE.jsonl; what is there already is not run "
         "again. Without it rows go to standard output",
     )
+    several(
+        "--retry",
+        choices=["errors", "killed"],
+        help="run again what the table has with the status 'error' (crashed, or killed from outside) or 'killed'",
+    )
     parser.add_argument("--quiet", action="store_true", help="show no progress and no summary")
 
 

@@ -19,7 +19,7 @@ from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import STDOUT
 from statehtn.cli.streams import OutputError, emit, say
 from statehtn.cli.tables import readable_summaries
-from statehtn.errors import InputError
+from statehtn.errors import InputError, UsageError
 from statehtn.experiments.cluster import execute_on_cluster
 from statehtn.experiments.record_files import RecordFiles, csv_line
 from statehtn.experiments.records import COLUMNS, Record, Row
@@ -28,6 +28,8 @@ from statehtn.experiments.runner import execute_all
 from statehtn.experiments.suites import runs_of
 from statehtn.experiments.summary import summarise, summary_of
 
+RETRIED = {"errors": "error", "killed": "killed"}
+"""What `--retry` takes, and the status of the runs that it means."""
 Show = Callable[[Record], None]
 
 
@@ -41,6 +43,8 @@ def run_compare(options: argparse.Namespace) -> ExitCode:
     runs = _runs(options)
     if options.output == STDOUT:
         options.output = None
+    if options.retry and options.output is None:
+        raise UsageError("--retry takes up the runs of an earlier comparison: name its table by --output FILE.csv")
     try:
         rows = _to_stdout(runs, options) if options.output is None else _to_files(runs, options)
     except OSError as error:
@@ -82,6 +86,7 @@ def _unique(values: Sequence[Any] | None) -> tuple[Any, ...]:
 def _to_files(runs: list[Run], options: argparse.Namespace) -> list[Row]:
     """Execute the runs that are not recorded yet, and return the rows of all."""
     with RecordFiles(options.output) as files:
+        files.forget(runs, [RETRIED[name] for name in options.retry or ()])
         missing = files.missing(runs)
         visible = sys.stderr.isatty() and not options.quiet
         progress = _bar(len(runs), len(runs) - len(missing)) if visible else nullcontext(_show_nothing)

@@ -36,7 +36,7 @@ out: --solver state plan --heuristic lmcut tdg are three combinations.
 
 statuses of a run, besides those of 'statehtn plan':
   input-error, unsupported   its input is wrong, or asks for something that the planner does not do
-  error                      it crashed, or its plan did not pass validation
+  error                      it crashed, was killed from outside (see --retry), or its plan did not pass validation
   killed                     it overran a limit and did not end of itself, or killed the workers that it ran on
 
 exit codes: 0 every run is recorded, 2 usage, 30 wrong suite, folder or file, 69 no cluster, 74 cannot write,

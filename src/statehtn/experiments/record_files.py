@@ -6,7 +6,8 @@ import csv
 import io
 import json
 import os
-from collections.abc import Iterable, Sequence
+import shutil
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -68,14 +69,22 @@ class RecordFiles:
         Raises:
             UsageError: runs with other limits are in the table; what they tell must not be mixed.
         """
-        asked = {(run.time_limit, run.memory_limit) for run in runs}
-        for key, limits in self._limits.items():
-            if key in self._rows and limits not in asked:
-                raise UsageError(
-                    f"the runs in '{self.name}' have {_limits_text(limits)}, those to be done "
-                    f"{' or '.join(map(_limits_text, asked))}; choose the same limits or another --output"
-                )
+        self._check_limits(runs)
         return [run for run in runs if run.key not in self._rows]
+
+    def forget(self, runs: Iterable[Run], statuses: Collection[str]) -> None:
+        """Drop the rows of those of the runs that ended with one of these statuses, so that they are missing again.
+
+        Raises:
+            UsageError: runs with other limits are in the table.
+            OSError: the table cannot be written; it is as it was.
+        """
+        self._check_limits(runs)
+        ended = {run.key for run in runs if run.key in self._rows and self._rows[run.key]["status"] in statuses}
+        if not ended:
+            return
+        self._rows = {key: row for key, row in self._rows.items() if key not in ended}
+        self._csv.replace([csv_line(COLUMNS), *(csv_line(row.values()) for row in self._rows.values())])
 
     def rows(self, runs: Iterable[Run]) -> list[Row]:
         """Return the rows of those of the runs that are done."""
@@ -91,6 +100,15 @@ class RecordFiles:
         self._json.append(json.dumps(record.to_dict(), allow_nan=False))
         self._csv.append(csv_line(row.values()))
         self._rows[record.run.key] = row
+
+    def _check_limits(self, runs: Iterable[Run]) -> None:
+        asked = {(run.time_limit, run.memory_limit) for run in runs}
+        for key, limits in self._limits.items():
+            if key in self._rows and limits not in asked:
+                raise UsageError(
+                    f"the runs in '{self.name}' have {_limits_text(limits)}, those to be done "
+                    f"{' or '.join(map(_limits_text, asked))}; choose the same limits or another --output"
+                )
 
     def _read_rows(self) -> dict[Key, Row]:
         rows = {}
@@ -125,6 +143,7 @@ class _LineFile:
     """
 
     def __init__(self, name: str, start: str) -> None:
+        self.name = name
         if Path(name).exists() and not Path(name).is_file():
             raise UsageError(f"cannot write '{name}': it is no regular file")
         try:
@@ -146,14 +165,39 @@ class _LineFile:
 
     def append(self, line: str) -> None:
         """Write a line, and wait until the disk has it."""
-        data = memoryview(f"{line}\n".encode(errors="surrogateescape"))
-        while data:
-            data = data[self._file.write(data) :]
-        os.fsync(self._file.fileno())
+        _write(self._file, f"{line}\n")
+
+    def replace(self, lines: Iterable[str]) -> None:
+        """Write these lines in the place of all; the file holds the old ones until it holds all of the new ones.
+
+        The new file is locked before it gets the name, and the old one stays locked until then.
+        """
+        path = Path(os.path.realpath(self.name))  # of a symbolic link, the file it points to is replaced
+        new = path.with_name(f".{path.name}.new")
+        file = open(new, "w+b", buffering=0)  # noqa: SIM115 - it stays open
+        try:
+            shutil.copymode(path, new)
+            _lock(file.fileno())
+            _write(file, "".join(f"{line}\n" for line in lines))
+            new.replace(path)
+        except OSError:
+            file.close()
+            new.unlink(missing_ok=True)
+            raise
+        self._file.close()
+        self._file = file
 
     def close(self) -> None:
         """Close the file and give up the lock."""
         self._file.close()
+
+
+def _write(file: io.FileIO, text: str) -> None:
+    """Write a text at the end of a file, and wait until the disk has it."""
+    data = memoryview(text.encode(errors="surrogateescape"))
+    while data:
+        data = data[file.write(data) :]
+    os.fsync(file.fileno())
 
 
 def _lock(descriptor: int) -> bool:
