@@ -250,3 +250,18 @@ def test_import_loads_nothing_but_the_standard_library() -> None:
     code = "import sys; before = set(sys.modules); import statehtn; print(*(set(sys.modules) - before))"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert {name.partition(".")[0] for name in loaded} <= sys.stdlib_module_names | {"statehtn"}
+    own = {name.split(".")[1] for name in loaded if name.startswith("statehtn.")}
+    later = {
+        "_relax",
+        "build",
+        "cli",
+        "core",
+        "decomposition",
+        "experiments",
+        "hddl",
+        "interop",
+        "planner",
+        "reference",
+    }
+    assert "model" in own
+    assert own.isdisjoint(later)
