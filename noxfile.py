@@ -109,6 +109,14 @@ def tests(session: nox.Session) -> None:
     session.run("pytest", *session.posargs)
 
 
+@nox.session
+def precision(session: nox.Session) -> None:
+    """Compare 20 000 random problems whose costs are far apart with exact arithmetic (half an hour)."""
+    session.install(".", *nox.project.dependency_groups(PROJECT, "test"))
+    thorough = ("--hypothesis-profile", "thorough", "-s")
+    session.run("pytest", *thorough, "tests/differential/test_optimal_is_optimal.py", *session.posargs)
+
+
 @nox.session(python=["3.11", "3.12"])
 def package(session: nox.Session) -> None:
     """Build and check source distribution and wheel, install each in an empty environment, and try it there.

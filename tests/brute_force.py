@@ -99,17 +99,17 @@ class Space:
                 continue
             if isinstance(pending, Condition):
                 if self.semantics.holds(pending.formula, dict(pending.bindings), node.state):
-                    yield 0.0, replace(node, network=replaced(node.network, pending, []))
+                    yield 0, replace(node, network=replaced(node.network, pending, []))
             elif pending.name in self.problem.domain.actions:
                 state = self.semantics.execute(pending.name, pending.arguments, node.state)
                 if state is not None:
-                    cost = 0.0
+                    cost = 0
                     if utility is not None:
                         cost = utility.risk_cost(self.semantics.law(pending.name, pending.arguments, node.state))
                     last = Event(pending.path, node.last, step=Step(pending.name, pending.arguments))
                     yield cost, Node(state, replaced(node.network, pending, []), last)
             else:
-                yield from ((0.0, successor) for successor in self.decompositions(node, pending))
+                yield from ((0, successor) for successor in self.decompositions(node, pending))
 
     def decompositions(self, node: Node, task: Task) -> Iterator[Node]:
         for method, bindings in self.semantics.instances(task.name, task.arguments):
@@ -143,7 +143,7 @@ def optimal_risk_cost(problem: Problem, utility: Utility, most_nodes: int = 2000
             heapq.heappush(queue, (cost + sum(map(due, node.network)), size, next(generated), cost, node))
 
     for root in space.roots():
-        add(root, 0.0)
+        add(root, 0)
     while queue:
         _, size, _, cost, node = heapq.heappop(queue)
         if space.is_goal(node):
@@ -166,7 +166,7 @@ class Due:
 
     def __call__(self, pending: Pending) -> float:
         if pending.label not in self.certain:
-            self.certain[pending.label] = 0.0
+            self.certain[pending.label] = 0
             actions = self.space.problem.domain.actions
             if isinstance(pending, Task) and pending.name in actions:
                 semantics = self.space.semantics
@@ -200,7 +200,7 @@ def best_risk_costs(problem: Problem, utility: Utility, k: int, distinct: str, m
             heapq.heappush(queue, (cost + sum(map(due, node.network)), size, next(generated), cost, node, steps))
 
     for root in space.roots():
-        add(root, (), 0.0)
+        add(root, (), 0)
     while queue and len(found) < k:
         _, size, _, cost, node, steps = heapq.heappop(queue)
         if space.is_goal(node):
