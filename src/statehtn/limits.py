@@ -20,7 +20,7 @@ class LimitReached(Exception):
 
     def __init__(self, status: Status) -> None:
         self.status = status
-        super().__init__(status.value)
+        super().__init__(f"the {status.value.replace('-', ' ')} was reached")
 
 
 ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)

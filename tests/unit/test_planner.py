@@ -257,6 +257,7 @@ def test_import_loads_nothing_but_the_standard_library() -> None:
         "cli",
         "core",
         "decomposition",
+        "display",
         "experiments",
         "hddl",
         "interop",

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
+import socket
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
@@ -35,6 +39,56 @@ def test_a_pipe_that_nobody_writes_ends_at_the_limit(pipe: Path, capsys: pytest.
         read_costs(pipe, Limits.starting_now(0.1))
     assert main(["plan", str(pipe), str(pipe), "--time-limit", "0.1"]) == 20
     assert "time limit reached" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("command", "shown"),
+    [
+        ("plan d.hddl p.hddl --costs pipe", "time limit reached"),
+        ("top 2 d.hddl pipe", "time limit"),
+        ("top 2 d.hddl p.hddl --costs pipe", "time limit"),
+        ("validate pipe p.hddl a.plan", "the plan is not checked: the time limit was reached before"),
+        ("validate d.hddl p.hddl pipe", "the plan is not checked: the time limit was reached before"),
+        ("validate d.hddl p.hddl pipe --json", '"stopped": "time-limit"'),
+        ("validate d.hddl p.hddl a.plan --costs pipe", "not decided"),
+        ("compare-attitudes d.hddl pipe --alpha 1", "error: the time limit was reached"),
+        ("compare-attitudes d.hddl p.hddl --alpha 1 --costs pipe", "error: the time limit was reached"),
+    ],
+)
+def test_every_file_of_a_command_is_read_under_its_limits(
+    pipe: Path, command: str, shown: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(pipe.parent)
+    Path("d.hddl").write_text(DOMAIN)
+    Path("p.hddl").write_text(PROBLEM)
+    assert main(["plan", "d.hddl", "p.hddl", "--quiet", "--output", "a.plan"]) == 0
+    assert main([*command.split(), "--time-limit", "0.1"]) == 20
+    captured = capsys.readouterr()
+    assert shown in captured.out + captured.err
+
+
+@pytest.mark.parametrize("command", ["plan", "validate", "graph"])
+def test_a_pipe_that_nobody_writes_can_be_interrupted(pipe: Path, command: str) -> None:
+    more = {"plan": [], "validate": ["a.plan"], "graph": ["--output", "g.dot"]}[command]
+    arguments = [sys.executable, "-m", "statehtn", command, str(pipe), str(pipe), *more]
+    process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=pipe.parent)
+    descriptor = os.open(pipe, os.O_WRONLY)  # returns when the command has opened the pipe
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    os.close(descriptor)
+    assert process.returncode == 130
+
+
+def test_standard_input_may_be_a_socket(tmp_path: Path) -> None:
+    (tmp_path / "p.hddl").write_text(PROBLEM)
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        ours.sendall(DOMAIN.encode())
+        ours.shutdown(socket.SHUT_WR)
+        command = [sys.executable, "-m", "statehtn", "plan", "-", str(tmp_path / "p.hddl"), "--quiet"]
+        ended = subprocess.run(command, stdin=theirs, capture_output=True, text=True, timeout=60, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert "(go)" in ended.stdout
 
 
 def test_a_pipe_is_read_to_its_end(pipe: Path, tmp_path: Path) -> None:

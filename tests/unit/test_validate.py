@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from statehtn.cli.tables import readable_validation
 from statehtn.errors import InputError
 from statehtn.model import (
     TRUE,
@@ -38,8 +39,9 @@ from statehtn.model import (
     TaskNetwork,
     TypeHierarchy,
 )
+from statehtn.model.status import Status
 from statehtn.risk import Neutral, utility_for
-from statehtn.validate import validate
+from statehtn.validate import Validation, validate
 
 
 def variables(**types: str) -> tuple[Parameter, ...]:
@@ -339,3 +341,13 @@ def test_quantified_variables_hide_outer_ones() -> None:
     )
     assert validate(problem, Plan((Step("do", ("a",)),), (0,)))
     assert validate(problem, Plan((Step("do", ("a",)),), (0,))).expected_cost == 1  # no costs: units
+
+
+def test_a_plan_that_a_limit_leaves_unchecked_does_not_fail() -> None:
+    unchecked = Validation(("the time was short",), (), stopped=Status.TIME_LIMIT)
+    text = readable_validation(unchecked, ["(go)"])
+    assert "not reached" in text
+    assert "fails" not in text
+    verdict, why = readable_validation(unchecked, []).strip().splitlines()
+    assert verdict.split() == ["verdict", "not", "decided"]
+    assert why.endswith("the time was short")

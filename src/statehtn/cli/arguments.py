@@ -175,7 +175,7 @@ def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:
     )
     _add_inputs(parser)
     parser.add_argument("plan", metavar="PLAN", help="plan file; - for standard input")
-    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds")
+    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
     parser.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
     parser.add_argument("--json", action="store_true", help="print the verdict as one JSON object")
 

@@ -10,6 +10,7 @@ from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.streams import emit
+from statehtn.limits import Limits
 
 
 def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
@@ -17,8 +18,9 @@ def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
 
     Raises:
         StateHtnError: the options or the input are wrong.
+        LimitReached: a limit was reached before the input was read.
     """
-    problem = read_problem(options)
+    problem = read_problem(options, Limits.starting_now(options.time_limit, options.memory_limit))
     with ProgressLine(silent=False) as progress:
         comparison = compare_attitudes(
             problem,

@@ -13,6 +13,7 @@ from pathlib import Path
 from statehtn.cli.streams import OutputError, emit_file
 from statehtn.errors import UsageError
 from statehtn.hddl import read_hddl
+from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.streams import own_descriptor
 
@@ -20,18 +21,19 @@ STDOUT = "-"
 TEMPORARY = ".statehtn-"
 
 
-def read_problem(options: argparse.Namespace) -> Problem:
+def read_problem(options: argparse.Namespace, limits: Limits = Limits()) -> Problem:
     """Read the problem that the options name, with the costs that they name.
 
     Raises:
         StateHtnError: a file is wrong.
+        LimitReached: a limit was reached.
     """
-    problem = read_hddl(options.domain, options.problem, strict=options.strict)
+    problem = read_hddl(options.domain, options.problem, strict=options.strict, limits=limits)
     if options.costs is None:
         return problem
     from statehtn.build.cost_file import read_costs  # few runs need it
 
-    return read_costs(options.costs).apply(problem)
+    return read_costs(options.costs, limits).apply(problem)
 
 
 class OutputFile:

@@ -14,11 +14,12 @@ from contextlib import contextmanager
 from types import FrameType
 
 from statehtn.cli.arguments import parse_arguments
-from statehtn.cli.exit_codes import ExitCode
+from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.plan_command import run_plan
 from statehtn.cli.streams import OutputError, reopen_closed_streams, say
 from statehtn.cli.validate_command import run_validate
 from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, UsageError
+from statehtn.limits import LimitReached
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -76,6 +77,8 @@ def _explain(error: BaseException) -> ExitCode:
             return _complain(ExitCode.INPUT_ERROR, f"error: {error}")
         case OutputError():
             return _complain(ExitCode.OUTPUT_ERROR, f"error: {error}")
+        case LimitReached():
+            return _complain(EXIT_CODES[error.status], f"error: {error}")
         case KeyboardInterrupt():
             return _complain(ExitCode.INTERRUPTED, "interrupted")
         case MemoryError():

@@ -72,7 +72,8 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
                 texts[id(law)] = str(law), number(law.mean)
             cost = texts[id(law)]
         else:
-            state = "not reached" if index > len(validation.costs) else "fails"
+            fails = index == len(validation.costs) and validation.stopped is None
+            state = "fails" if fails else "not reached"
         shown.append((str(index + 1), str(step), state, *cost))
     columns = (("", True), ("action", False), ("", False), ("cost", False), ("expected", True))
     table = LongTable(columns, shown)
@@ -87,7 +88,8 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
     rows += [("because", reason) for reason in validation.reasons]
     if validation.valid:
         rows.append(("expected cost", number(validation.expected_cost)))
-    return _render([table, _summary(rows, "bold green" if validation.valid else "bold red")])
+    summary = _summary(rows, "bold green" if validation.valid else "bold red")
+    return _render([table, summary] if shown else [summary])
 
 
 def readable_summaries(summaries: Sequence[Summary], total: Summary) -> str:

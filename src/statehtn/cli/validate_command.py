@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-from typing import Any
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
@@ -13,7 +12,7 @@ from statehtn.errors import InputError
 from statehtn.hddl.action_list import read_actions
 from statehtn.hddl.plan_format import read_plan, write_plan
 from statehtn.limits import LimitReached, Limits
-from statehtn.model import Problem, Step
+from statehtn.model import Step
 from statehtn.read_file import read_named
 from statehtn.validate import Validation
 from statehtn.verify import validate
@@ -28,18 +27,21 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     from statehtn.cli.tables import readable_validation
 
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
-    problem = read_problem(options)
-    text = _read_text(options.plan)
-    actions = read_actions(text, problem, options.plan)
-    plan = read_plan(text, problem, options.plan) if actions is None else actions
-    steps = plan if isinstance(plan, tuple) else plan.steps
+    steps: tuple[Step, ...] = ()
+    found = None
     try:
+        problem = read_problem(options, limits)
+        text = _read_text(options.plan, limits)
+        actions = read_actions(text, problem, options.plan)
+        plan = read_plan(text, problem, options.plan) if actions is None else actions
+        steps = plan if isinstance(plan, tuple) else plan.steps
         validation = validate(problem, plan, limits)
+        found = None if validation.plan is None else write_plan(validation.plan, problem)
     except LimitReached as ending:
-        reason = f"the plan is not checked: the {ending.status.value.replace('-', ' ')} was reached before"
-        validation = Validation((reason,), (), stopped=ending.status)
+        validation = Validation((f"the plan is not checked: {ending} before",), (), stopped=ending.status)
     if options.json:
-        emit(json.dumps(_object(validation, steps, problem), allow_nan=False))
+        whole = {**validation.to_dict(), "actions": [str(step) for step in steps], "plan": found}
+        emit(json.dumps(whole, allow_nan=False))
     else:
         emit(readable_validation(validation, steps), raw=True)
     if validation.stopped is not None:
@@ -47,14 +49,8 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     return ExitCode.SUCCESS if validation.valid else ExitCode.INVALID_PLAN
 
 
-def _object(validation: Validation, steps: tuple[Step, ...], problem: Problem) -> dict[str, Any]:
-    """Return what --json prints: the validation, the actions, and the plan whose decomposition was found."""
-    found = None if validation.plan is None else write_plan(validation.plan, problem)
-    return {**validation.to_dict(), "actions": [str(step) for step in steps], "plan": found}
-
-
-def _read_text(name: str) -> str:
+def _read_text(name: str, limits: Limits) -> str:
     try:
-        return read_named(f"'{name}'", name).decode("utf-8")
+        return read_named(f"'{name}'", name, limits).decode("utf-8")
     except UnicodeDecodeError as error:
         raise InputError(f"'{name}' is no text file: byte {error.start} cannot be decoded") from None

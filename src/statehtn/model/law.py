@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
-from statehtn.display.law import brief, law_html
 from statehtn.errors import UsageError
 from statehtn.expected import number
 
@@ -97,9 +96,13 @@ class CostLaw(ABC):
         """Draw so many independent costs with a generator of numpy."""
 
     def __repr__(self) -> str:
+        from statehtn.display.law import brief
+
         return f"<{type(self).__name__}: {brief(str(self))}; mean {self.mean:.6g}>"
 
     def _repr_html_(self) -> str:
+        from statehtn.display.law import brief, law_html
+
         names = ("mean", "standard deviation", "least", "most")
         values = (self.mean, self.standard_deviation, self.least, self.most)
         return law_html(brief(str(self)), list(zip(names, values, strict=True)), getattr(self, "outcomes", ()))

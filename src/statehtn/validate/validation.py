@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from statehtn.collector import without_collector
-from statehtn.display.law import brief
-from statehtn.display.validation import validation_html
 from statehtn.limits import Limits
 from statehtn.model.expect import expect_plan, expect_problem, expect_utility
 from statehtn.model.law import CostLaw
@@ -67,12 +65,16 @@ class Validation:
         }
 
     def __repr__(self) -> str:
+        from statehtn.display.law import brief
+
         if self.valid:
             return f"<validation: valid, {len(self.costs)} steps, expected cost {self.expected_cost:.10g}>"
         more = f" (and {len(self.reasons) - 1} more reasons)" if len(self.reasons) > 1 else ""
         return f"<validation: invalid: {brief(self.reasons[0])}{more}>"
 
     def _repr_html_(self) -> str:
+        from statehtn.display.validation import validation_html
+
         return validation_html(self.valid, self.reasons, self.costs)
 
     @property
