@@ -147,6 +147,9 @@ class Problem:
             self._objects_of[types] = found
         return found
 
+    def __hash__(self) -> int:
+        return hash((self.name, self.domain, frozenset(self.objects.items()), self.initial_state, self.goal))
+
     def __repr__(self) -> str:
         counts = f"objects {len(self.all_objects)}, facts {len(self.initial_state)}, tasks {len(self.network.subtasks)}"
         return f"<problem '{self.name}': {counts}; in {self.domain!r}>"
