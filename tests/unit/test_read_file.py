@@ -8,6 +8,7 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from statehtn import InputError, read_costs, read_hddl
-from statehtn.cli import main
+from statehtn.cli import files, main
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import TypeHierarchy
 from statehtn.read_file import PIECE, read_pieces
@@ -65,6 +66,17 @@ def test_every_file_of_a_command_is_read_under_its_limits(
     assert main([*command.split(), "--time-limit", "0.1"]) == 20
     captured = capsys.readouterr()
     assert shown in captured.out + captured.err
+
+
+@pytest.mark.parametrize("command", ["validate d.hddl p.hddl a.plan", "compare-attitudes d.hddl p.hddl --alpha 1"])
+def test_limits_hold_while_a_reader_computes(command: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def compute(*_: object, **__: object) -> None:
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            pass
+
+    monkeypatch.setattr(files, "read_hddl", compute)
+    assert main([*command.split(), "--time-limit", "0.1"]) == 20
 
 
 @pytest.mark.parametrize("command", ["plan", "validate", "graph"])

@@ -13,7 +13,7 @@ from pathlib import Path
 from statehtn.cli.streams import OutputError, emit_file
 from statehtn.errors import UsageError
 from statehtn.hddl import read_hddl
-from statehtn.limits import Limits
+from statehtn.limits import Limits, watched
 from statehtn.model import Problem
 from statehtn.streams import own_descriptor
 
@@ -28,12 +28,13 @@ def read_problem(options: argparse.Namespace, limits: Limits = Limits()) -> Prob
         StateHtnError: a file is wrong.
         LimitReached: a limit was reached.
     """
-    problem = read_hddl(options.domain, options.problem, strict=options.strict, limits=limits)
-    if options.costs is None:
-        return problem
-    from statehtn.build.cost_file import read_costs  # few runs need it
+    with watched(limits):
+        problem = read_hddl(options.domain, options.problem, strict=options.strict, limits=limits)
+        if options.costs is None:
+            return problem
+        from statehtn.build.cost_file import read_costs  # few runs need it
 
-    return read_costs(options.costs, limits).apply(problem)
+        return read_costs(options.costs, limits).apply(problem)
 
 
 class OutputFile:
