@@ -110,7 +110,7 @@ def test_a_limit_leaves_it_open(delivery: statehtn.Problem) -> None:
 def test_one_reason_once(delivery: statehtn.Problem) -> None:
     validation = statehtn.validate(delivery, ["(fly a b)"] * 100)
     assert validation.reasons[0] == (
-        "step 1 (fly a B): there is no action 'fly' (likewise 99 more: step 2, 3, 4, 5, 6 ...)"
+        "step 1 (fly a B): there is no action 'fly' (likewise 99 more: steps 2, 3, 4, 5, 6 ...)"
     )
     assert len(validation.reasons) == 1
 

@@ -144,6 +144,7 @@ def told_once(reasons: Sequence[str]) -> tuple[str, ...]:
     found = []
     for same in by_cause.values():
         others = [match[1] for reason in same[1:] if (match := _STEP.match(reason))]
-        more = f" (likewise {len(others)} more: step {', '.join(others[:5])}{' ...' if len(others) > 5 else ''})"
+        steps = f"{'steps' if len(others) > 1 else 'step'} {', '.join(others[:5])}{' ...' if len(others) > 5 else ''}"
+        more = f" (likewise {len(others)} more: {steps})"
         found.append(same[0] + (more if others else ""))
     return tuple(found)
