@@ -16,10 +16,11 @@ settings.register_profile("ci", max_examples=100, deadline=None, derandomize=Tru
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
 settings.load_profile("dev")
 
-# A shell starts its background jobs with Ctrl-C ignored, and so does CI; what they start inherits that. The tests that
-# send SIGINT, to themselves or to commands that they start, expect what a terminal gives.
-if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+# A shell starts its background jobs with Ctrl-C ignored, `nohup` with hang-ups ignored, and CI may do both; what they
+# start inherits that. The tests that send signals, to themselves or to commands, expect what a terminal gives.
+for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
+    if signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, handler)
 
 
 def show_problem(problem: Problem, printer: RepresentationPrinter, _cycle: bool) -> None:

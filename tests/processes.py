@@ -9,11 +9,20 @@ import time
 from pathlib import Path
 
 
-def start(*arguments: str, **options: object) -> subprocess.Popen[str]:
+class Process(subprocess.Popen[str]):
+    """A process that does not outlive a failed test."""
+
+    def __exit__(self, kind: type[BaseException] | None, *rest: object) -> None:
+        if kind is not None:
+            self.kill()
+        super().__exit__(kind, *rest)  # type: ignore[arg-type]
+
+
+def start(*arguments: str, **options: object) -> Process:
     """Start `statehtn` with pipes for its output, unless the options of `Popen` say otherwise."""
     command = [sys.executable, "-m", "statehtn", *arguments]
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
-    return subprocess.Popen(command, **streams)  # type: ignore[call-overload, no-any-return]
+    return Process(command, **streams)  # type: ignore[call-overload, no-any-return]
 
 
 def wait_until_signals_are_caught(process: subprocess.Popen[str], seconds: float = 20.0) -> None:
