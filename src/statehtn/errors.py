@@ -16,6 +16,11 @@ def printable(text: str) -> str:
     return _UNPRINTABLE.sub(lambda match: match[0].encode("unicode_escape").decode("ascii"), text)
 
 
+def one_line(text: str) -> str:
+    r"""Return a text as `printable` does, its newlines as escapes, too: names of files can have some."""
+    return printable(text).replace("\n", r"\n")
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """A position in an input `file`; its `line` and `column` count from 1."""
@@ -39,7 +44,7 @@ class StateHtnError(Exception):
     def __init__(self, message: str, place: Place | None = None) -> None:
         self.message = message
         self.place = place
-        super().__init__(printable(f"{place}: {message}" if place else message))
+        super().__init__(one_line(f"{place}: {message}" if place else message))
 
 
 class InputError(StateHtnError):

@@ -27,6 +27,9 @@ ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)
 """Exceptions that end a phase before it has anything to show."""
 
 
+MOST_MB = 2**63 / 1e6
+"""More memory than any machine can name; a limit beyond it is none."""
+
 SECONDS_BETWEEN_LOOKS = 0.05
 """At the limits, while a library computes that knows of none."""
 
@@ -65,7 +68,11 @@ class Limits:
             UsageError: a limit is not positive.
         """
         seconds = _positive("time limit", time_limit)
-        return Limits(None if seconds is None else time.monotonic() + seconds, _positive("memory limit", memory_limit))
+        megabytes = _positive("memory limit", memory_limit)
+        return Limits(
+            None if seconds is None else time.monotonic() + seconds,
+            None if megabytes is None or megabytes >= MOST_MB else megabytes,
+        )
 
     def with_grace(self, seconds: float) -> Limits:
         """Return limits that leave at least so many seconds from now on, and a twentieth of the memory."""

@@ -153,3 +153,22 @@ def test_invalid_files_as_json(tmp_path: Path, capsys: Capture) -> None:
     Path(names[2]).write_text("(take-train)\nand then home\n")
     assert main(["validate", *names]) == 30
     assert "plan:2:1: expected an action such as (drive a b), found 'and then home'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("domain", "code"),
+    [
+        (DELIVERY, 0),
+        (DELIVERY.replace("(tour ?p) :ordered-subtasks ()", "(tour ?p) :ordered-subtasks (and (rest))"), 1),
+    ],
+)
+@pytest.mark.parametrize("text", ["", "\n", "; nothing to do\n", "==>\n<==\n"])
+def test_an_empty_list_is_a_list(tmp_path: Path, domain: str, code: int, text: str, capsys: Capture) -> None:
+    names = [str(tmp_path / name) for name in ("d.hddl", "p.hddl", "plan")]
+    for name, content in zip(names, (domain, TWO_TOURS.replace("(rest)", ""), text), strict=True):
+        Path(name).write_text(content)
+    assert main(["plan", *names[:2], "--quiet"]) == 0
+    assert (capsys.readouterr().out == "") == (code == 0)
+    assert main(["validate", *names, "--json"]) == code
+    found = json.loads(capsys.readouterr().out)
+    assert (found["valid"], found["actions"]) == (code == 0, [])

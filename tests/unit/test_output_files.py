@@ -95,6 +95,27 @@ def test_after_a_mistake_every_file_stays(tmp_path: Path, domain: str, options: 
     assert target.read_text() == "of an earlier run"
 
 
+@pytest.mark.parametrize("command", [["plan", "--quiet"], ["graph", "--format", "dot"]])
+@pytest.mark.parametrize("problem", [PROBLEM, UNSOLVABLE])
+def test_inputs_are_not_replaced(tmp_path: Path, command: list[str], problem: str, capsys: Capture) -> None:
+    inputs = written(tmp_path, DOMAIN, problem)
+    costs = tmp_path / "costs.toml"
+    costs.write_text("[actions.take-train]\nvalue = 1\n")
+    (tmp_path / "link").symlink_to(costs)
+    (tmp_path / "twin").hardlink_to(costs)
+    before = {name: Path(name).read_text() for name in (*inputs, str(costs))}
+    for output in (*inputs, str(costs), str(tmp_path / "in" / ".." / "link"), str(tmp_path / "twin")):
+        assert main([*command, *inputs, "--costs", str(costs), "--output", output]) == 2
+        assert f"'{output}' would replace the input '" in capsys.readouterr().err
+    assert {name: Path(name).read_text() for name in before} == before
+
+
+def test_an_input_on_standard_input_is_not_replaced(inputs: list[str]) -> None:
+    with open(inputs[0]) as domain, start("plan", "-", inputs[1], "--output", inputs[0], stdin=domain) as process:
+        assert "would replace the input" in process.communicate(timeout=20)[1]
+    assert (process.returncode, Path(inputs[0]).read_text()) == (2, DOMAIN)
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
 def test_pipes_and_devices_are_not_removed(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")

@@ -219,6 +219,10 @@ def test_an_interrupt_is_a_value(solver: str) -> None:
 
 def test_huge_limits_are_none(problem: statehtn.Problem) -> None:
     assert statehtn.plan(problem, time_limit=float("inf"), memory_limit=1e9).status is statehtn.Status.OPTIMAL
+    for beyond_all_clocks_and_machines in (2**63 / 1e6, 1.8e13, 1.9e13, 1e30, 1e308):
+        limits = {"time_limit": beyond_all_clocks_and_machines, "memory_limit": beyond_all_clocks_and_machines}
+        assert statehtn.plan(problem, **limits).status is statehtn.Status.OPTIMAL
+        assert len(statehtn.top_plans(problem, 2, **limits)) > 0
 
 
 def test_every_search_has_a_heuristic_of_its_own() -> None:

@@ -346,7 +346,7 @@ def test_wrong_outputs(tmp_path: Path, capsys: Capture) -> None:
     before = results.read_text()
     for name in ("r.csv", "r.jsonl"):
         code, line = complaint(capsys, [str(results), "--output", str(tmp_path / name)])
-        assert (code, "would replace the results" in line) == (2, True)
+        assert (code, "would replace the input" in line) == (2, True)
     code, line = complaint(capsys, [str(results), "--output", str(tmp_path / "no/r.html")])
     assert (code, "no directory" in line) == (2, True)
     assert results.read_text() == before

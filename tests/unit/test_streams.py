@@ -70,6 +70,24 @@ def test_names_with_control_characters_do_not_drive_the_terminal(tmp_path: Path,
     assert captured.err.count("\\x1b[31m") >= 3
 
 
+def test_a_mistake_is_one_line_whatever_its_files_are_called(tmp_path: Path, capsys: Capture) -> None:
+    name = str(tmp_path / "no\nsuch\x85file")
+    for arguments in (
+        ["plan", name, name],
+        ["plan", name, name, "--costs", name],
+        ["validate", name, name, name],
+        ["plan", "--output", f"{name}/plan", name, name],
+        ["plan", name, name, "--output", name],
+        ["graph", name, name, "--output", name],
+        ["report", name, "--output", "page.html"],
+        ["compare", "--suite", name],
+        ["plan", name, name, "--a\nb"],
+    ):
+        assert main(arguments) in (2, 30)
+        captured = capsys.readouterr()
+        assert (captured.out, captured.err.count("\n"), "\\n" in captured.err) == ("", 1, True), captured.err
+
+
 def test_what_is_said_stands_above_the_progress_line(capsys: Capture) -> None:
     streams.show_progress("0.1 s, 17 expanded")
     streams.say("warning: twice")

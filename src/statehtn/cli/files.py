@@ -7,7 +7,7 @@ import contextlib
 import os
 import stat
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from statehtn.cli.streams import OutputError, emit_file
@@ -44,13 +44,15 @@ class OutputFile:
 
     Args:
         name: as it stands on the command line.
+        inputs: the files that the run reads; None for those that are not asked for.
 
     Raises:
-        UsageError: it cannot be written, and that is plain before time is spent on what it is to hold.
+        UsageError: it is one of the inputs, or cannot be written, and that is plain before time is spent on what it is
+            to hold.
         OutputError: the system does not take this name, because it is too long, say.
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, inputs: Iterable[str | None] = ()) -> None:
         self.name = name
         self.path = Path(os.path.realpath(name))  # of a symbolic link, the file it points to is replaced
         self.descriptor = 1 if name == STDOUT else own_descriptor(name)
@@ -66,6 +68,9 @@ class OutputFile:
             raise UsageError(f"cannot write '{name}': there is no directory '{Path(name).parent}'")
         if not os.access(self.path.parent if mode is None else self.path, os.W_OK):
             raise UsageError(f"cannot write '{name}': permission denied")
+        for file in inputs:
+            if self.is_regular and file is not None and _are_one(self.path, file):
+                raise UsageError(f"--output '{name}' would replace the input '{file}'; choose another name")
 
     @property
     def is_stdout(self) -> bool:
@@ -105,6 +110,13 @@ class OutputFile:
             yield
         except OSError as error:
             raise OutputError(f"cannot write '{self.name}': {error.strerror}") from error
+
+
+def _are_one(path: Path, name: str) -> bool:
+    """Tell whether two names are those of one file, be it that there is none yet."""
+    with contextlib.suppress(OSError, ValueError):  # one is not there, or can be the name of no file
+        return path == Path(os.path.realpath(name)) or path.samefile(name)
+    return False
 
 
 def _mode(path: Path) -> int | None:

@@ -20,7 +20,7 @@ from statehtn.decomposition import (
     to_svg,
     with_values,
 )
-from statehtn.errors import UsageError
+from statehtn.errors import UsageError, one_line
 from statehtn.model import Problem
 from statehtn.reference import build_rc_model
 from statehtn.reference.relaxed_graph import relaxed_model_graph
@@ -48,12 +48,12 @@ def run_graph(options: argparse.Namespace) -> ExitCode:
     if options.kind != "gcv-tdg" and (options.attitude != "neutral" or options.alpha is not None):
         raise UsageError(f"values for an agent are shown on the gcv-tdg, not on the {options.kind}")
     utility = utility_for(options.attitude, options.alpha)
-    output = OutputFile(options.output)
+    output = OutputFile(options.output, (options.domain, options.problem, options.costs))
     problem = read_problem(options)
     graph = make_graph(problem, options.kind, utility)
     output.write(FORMATS[form](graph))
     if not output.is_stdout:
-        emit(f"{options.output}: {len(graph)} nodes, {graph.number_of_edges()} edges")
+        emit(f"{one_line(options.output)}: {len(graph)} nodes, {graph.number_of_edges()} edges")
     return ExitCode.SUCCESS
 
 

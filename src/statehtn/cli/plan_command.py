@@ -36,7 +36,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         weight=options.weight,
         branch=options.branch,
     )
-    output = None if options.output is None else OutputFile(options.output)
+    inputs = (options.domain, options.problem, options.costs)
+    output = None if options.output is None else OutputFile(options.output, inputs)
     if output and output.is_stdout and options.json:
         raise UsageError("both --json and the plan of --output would go to standard output; leave out one of them")
     keeper = _PlanKeeper(output)

@@ -18,7 +18,7 @@ from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.plan_command import run_plan
 from statehtn.cli.streams import OutputError, reopen_closed_streams, say
 from statehtn.cli.validate_command import run_validate
-from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, UsageError
+from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, UsageError, one_line
 from statehtn.limits import LimitReached
 
 
@@ -98,7 +98,7 @@ def _complain(code: ExitCode, line: str) -> ExitCode:
     """Write a line to stderr, after the traceback where STATEHTN_DEBUG asks for it."""
     if os.environ.get("STATEHTN_DEBUG"):
         say(traceback.format_exc())
-    say(line)
+    say(one_line(line))
     return code
 
 
@@ -136,7 +136,7 @@ def _warnings_as_lines() -> Iterator[None]:
     """Show warnings about the input as lines on stderr."""
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
-        say(f"warning: {message}")
+        say(one_line(f"warning: {message}"))
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)

@@ -8,7 +8,7 @@ from pathlib import Path
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import OutputFile
 from statehtn.cli.streams import emit
-from statehtn.errors import UsageError
+from statehtn.errors import one_line
 from statehtn.experiments.report import read_outcomes, report_page
 
 
@@ -20,15 +20,10 @@ def run_report(options: argparse.Namespace) -> ExitCode:
         OutputError: the page cannot be written.
     """
     results = Path(options.results)
-    output = OutputFile(options.output)
-    for file in (results, results.with_suffix(".jsonl")):
-        if output.path == file.resolve():
-            raise UsageError(
-                f"--output '{options.output}' would replace the results; choose another name, such as *.html"
-            )
+    output = OutputFile(options.output, (options.results, str(results.with_suffix(".jsonl"))))
     outcomes = read_outcomes(options.results)
     page = report_page(outcomes, results.name)
     output.write(page)
     if not output.is_stdout:
-        emit(f"{options.output}: {len(outcomes)} runs, {len(page.encode()) / 1000:.0f} kB")
+        emit(f"{one_line(options.output)}: {len(outcomes)} runs, {len(page.encode()) / 1000:.0f} kB")
     return ExitCode.SUCCESS

@@ -19,6 +19,7 @@ _NUMBERED = re.compile(r"\d+\s+([^()>\s][^()>]*)")
 def read_actions(text: str, problem: Problem, file: str = "<plan>") -> tuple[Step, ...] | None:
     """Read a list of actions, one in each line; None if the text is something else, such as a plan with decomposition.
 
+    A text that says nothing is the empty list, as `plan --quiet` prints a plan without actions.
     Comments (`;`), blank lines and a frame of `==>` and `<==` do not matter; nor does the case of letters.
 
     Args:
@@ -34,7 +35,7 @@ def read_actions(text: str, problem: Problem, file: str = "<plan>") -> tuple[Ste
     if any(line.lower().startswith("root") or "->" in line for _, line in shown):
         return None
     matches = [(number, line, _ACTION.fullmatch(line) or _NUMBERED.fullmatch(line)) for number, line in shown]
-    if not any(match for _, _, match in matches):
+    if shown and not any(match for _, _, match in matches):
         return None
     actions, objects = Spellings(problem.domain.actions), Spellings(problem.all_objects)
     steps = []
