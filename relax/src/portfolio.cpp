@@ -13,10 +13,10 @@ namespace relax {
 
 namespace {
 
-constexpr std::uint64_t kFirstTurn = 1'000'000;   // of work
-constexpr std::uint64_t kLaggardsShare = 8;       // one part in so many
-constexpr std::uint64_t kPreparation = 100;       // of a relaxed model, for each action and method
-constexpr std::uint64_t kHeadStart = 30'000'000;  // of a greedy search
+constexpr std::uint64_t kFirstTurn = 1'000'000;  // of work
+constexpr std::uint64_t kLaggardsShare = 8;      // one part in so many
+constexpr std::uint64_t kPreparation = 100;      // of a relaxed model, for each action and method
+constexpr std::uint64_t kHeadStart = 8'000'000;  // of a greedy search
 constexpr std::uint64_t kNoEnd = std::numeric_limits<std::uint64_t>::max();
 
 bool has_model(HeuristicKind kind) { return kind != HeuristicKind::Blind && kind != HeuristicKind::Tdg; }

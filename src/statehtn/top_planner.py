@@ -226,7 +226,7 @@ def _ranked(found: Sequence[FoundPlan], proven: int, utility: Utility) -> Iterat
 
     def place(one: FoundPlan) -> tuple[float, int, list[str]]:
         cost = math.fsum(step.risk_cost for step in one.steps)
-        return float(f"{cost:.12g}"), len(one.steps), [str(step.step) for step in one.steps]
+        return float(f"{cost:.14g}"), len(one.steps), [str(step.step) for step in one.steps]
 
     in_order = sorted(found[:proven], key=place) + sorted(found[proven:], key=place)
     for index, one in enumerate(in_order):

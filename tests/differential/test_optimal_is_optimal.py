@@ -23,7 +23,7 @@ LEAST_EXAMPLES = 100  # of fewer, now and then too many would be undecided
 MOST_NODES = 2000
 TOLERANCE = 1e-9
 ROUNDING = 1e-12
-EQUAL = 1e-11  # plans whose costs have the same twelve digits are in the order of their lengths
+EQUAL = 1e-13  # plans whose costs have the same fourteen digits are in the order of their lengths
 WEIGHT = 1.5
 SEARCHES: list[dict[str, object]] = [
     *({"heuristic": heuristic} for heuristic in ("auto", *ADMISSIBLE)),

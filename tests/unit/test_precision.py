@@ -118,6 +118,25 @@ def test_the_best_plans_in_the_order_of_their_costs(distinct: str) -> None:
     assert [ranked.risk_cost for ranked in everything] == [6e-9, 7e-9, 9e-9, 1.0, 1e9]
 
 
+def test_the_best_plans_beside_a_cost_that_all_have() -> None:
+    """What tells the plans apart is in the thirteenth digit of their costs."""
+    domain = """(define (domain d) (:types thing) (:functions (total-cost))
+      (:task do :parameters (?t - thing))
+      (:method slowly :parameters (?t - thing) :task (do ?t) :ordered-subtasks (slow ?t))
+      (:method fast :parameters (?t - thing) :task (do ?t) :ordered-subtasks (fast ?t))
+      (:action slow :parameters (?t - thing) :effect (increase (total-cost) 1.2))
+      (:action fast :parameters (?t - thing) :effect (increase (total-cost) 1.9))
+      (:action big :parameters () :effect (increase (total-cost) 1e11)))"""
+    problem = statehtn.read_hddl_text(
+        domain,
+        "(define (problem p) (:domain d) (:objects a b c - thing)"
+        " (:htn :ordered-subtasks (and (do a) (do b) (do c) (big))) (:init))",
+    )
+    best = statehtn.top_plans(problem, 3)
+    slow = [[step.step.action for step in ranked.steps].count("slow") for ranked in best]
+    assert slow == [3, 2, 2]
+
+
 @pytest.mark.parametrize("options", [*(SEARCHES[place] for place in (0, 1, 3, 4)), {"search": "greedy"}])
 def test_a_plan_that_costs_more_than_fixed_point_holds_at_first(options: dict[str, object]) -> None:
     """Costs are 2^20 apart, so that the first scale is a fine one, on which 2^13 expensive steps exceed 2^62 units."""
