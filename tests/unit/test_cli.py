@@ -6,12 +6,15 @@ import json
 import os
 import signal
 import stat
+import subprocess
+import sys
 import time
 from pathlib import Path
 
 import pytest
 
 from statehtn.cli import main
+from statehtn.cli.exit_codes import ExitCode
 from tests.processes import start, wait_until_signals_are_caught
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM, KEYS, UNSOLVABLE
@@ -92,9 +95,11 @@ def test_memory_limit(files: Files, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_in_a_result(files: Files, number: signal.Signals) -> None:
-    process = start("plan", files["endless-domain"], files["endless"], "--json", "--time-limit", "20")
-    wait_until_signals_are_caught(process)
+def test_a_signal_ends_in_a_result(files: Files, tmp_path: Path, number: signal.Signals) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    process = start("plan", files["endless-domain"], str(pipe), "--json", "--time-limit", "20")
+    pipe.write_text(Path(files["endless"]).read_text())  # waits until the pipe is read: the command line runs
     time.sleep(1)
     process.send_signal(number)
     output, errors = process.communicate(timeout=30)
@@ -103,6 +108,29 @@ def test_a_signal_ends_in_a_result(files: Files, number: signal.Signals) -> None
     found = json.loads(output)
     assert found["status"] == "interrupted"
     assert found["lower_bound"] > 0
+
+
+LOADING_FOR_EVER = """
+import runpy, sys, time
+
+class Slow:
+    def find_spec(name, *_):
+        time.sleep(60 if name == "statehtn.cli" else 0)
+
+sys.meta_path.insert(0, Slow)
+runpy.run_module("statehtn", run_name="__main__", alter_sys=True)
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_while_the_program_is_loaded_is_one_line(number: signal.Signals) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-c", LOADING_FOR_EVER], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    wait_until_signals_are_caught(process)
+    process.send_signal(number)
+    assert process.communicate(timeout=30) == ("", "interrupted\n")
+    assert process.returncode == ExitCode.INTERRUPTED
 
 
 def test_output_and_validate(files: Files, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -109,7 +109,11 @@ def test_every_run_has_its_row(tree: Path, tmp_path: Path, capsys: Capture) -> N
     assert (found["machine"], found["version"]) == (platform.node(), statehtn.__version__)
 
     captured = capsys.readouterr()
-    assert captured.err == ""
+    told = sorted(line.split(": ")[0] for line in captured.err.splitlines())
+    assert told == [
+        "1 run with status input-error, of total-order/Errands p3",
+        "1 run with status unsupported, of partial-order/Endless pfile02",
+    ]
     assert captured.out.splitlines()[-1] == f"what the errors were: '{tmp_path / 'results.jsonl'}' (message)"
     assert counts(captured.out, "partial-order/Endless") == [2, 1, 0, 0, 0, 1, 1]
     assert counts(captured.out, "in all") == [5, 3, 1, 1, 1, 1, 2]
@@ -210,10 +214,32 @@ def test_rows_on_standard_output(tree: Path, capsys: Capture) -> None:
     assert "in all" in captured.err
 
 
+@pytest.mark.parametrize("options", [[], ["--quiet"], ["--output", "results.csv"]])
+def test_why_runs_have_failed(
+    tree: Path, tmp_path: Path, options: list[str], monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert compare(tree, "--domain", "*Errands", "--problem", "p1", "p3", "--repeat", "2", *options) == 0
+    captured = capsys.readouterr()
+    (line,) = (line for line in captured.err.splitlines() if " with status " in line)
+    assert line.startswith("2 runs with status input-error, first total-order/Errands p3: ")
+    assert "p3.hddl:" in line
+    assert "'nowhere'" in line
+
+
+def test_a_crash_without_a_word_is_told(
+    tree: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    python(tmp_path, "raise SystemExit(3)", monkeypatch)
+    assert compare(tree, "--domain", "*Errands", "--problem", "p1", "--quiet") == 0
+    assert capsys.readouterr().err == "1 run with status error, of total-order/Errands p1: exit code 3\n"
+
+
 def test_other_limits_are_not_mixed(tree: Path, tmp_path: Path, capsys: Capture) -> None:
     output = tmp_path / "results.csv"
     options = ["--domain", "*Errands", "--output", str(output), "--quiet"]
     assert compare(tree, *options, "--time-limit", "5") == 0
+    capsys.readouterr()
     before = output.read_bytes()
     assert compare(tree, *options, "--time-limit", "6") == 2
     assert "time limit of 5 s" in complaint(capsys)

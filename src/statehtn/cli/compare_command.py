@@ -19,7 +19,7 @@ from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import STDOUT
 from statehtn.cli.streams import OutputError, emit, say
 from statehtn.cli.tables import readable_summaries
-from statehtn.errors import InputError, UsageError
+from statehtn.errors import InputError, UsageError, one_line
 from statehtn.experiments.cluster import execute_on_cluster
 from statehtn.experiments.record_files import RecordFiles, csv_line
 from statehtn.experiments.records import COLUMNS, Record, Row
@@ -30,6 +30,8 @@ from statehtn.experiments.summary import summarise, summary_of
 
 RETRIED = {"errors": "error", "killed": "killed"}
 """What `--retry` takes, and the status of the runs that it means."""
+FAILURES = ("input-error", "unsupported", "error", "killed")
+"""The statuses of runs whose messages say what to do about them."""
 Show = Callable[[Record], None]
 
 
@@ -112,10 +114,27 @@ def _execute(runs: list[Run], options: argparse.Namespace, keep: Show, progress:
     if not runs:
         return
     execution = execute_all(runs, options.jobs) if options.dask is None else execute_on_cluster(runs, options.dask)
-    with _no_logs(), progress as show, closing(execution) as records:
-        for record in records:
-            keep(record)
-            show(record)
+    failures: dict[str, list[Record]] = {}
+    try:
+        with _no_logs(), progress as show, closing(execution) as records:
+            for record in records:
+                if record.status in FAILURES:
+                    failures.setdefault(record.status, []).append(record)
+                keep(record)
+                show(record)
+    finally:
+        for status, records_of_it in failures.items():
+            say(one_line(_failure(status, records_of_it)))
+
+
+def _failure(status: str, records: Sequence[Record]) -> str:
+    """Say how many runs ended with this status, and why the first of them did."""
+    first = records[0]
+    instance = first.run.instance
+    words = first.message.splitlines() or [f"exit code {first.exit_code}"]
+    count = "1 run" if len(records) == 1 else f"{len(records)} runs"
+    example = f"{instance.domain} {instance.problem}: {words[-1].removeprefix('error: ')}"
+    return f"{count} with status {status}, {'first' if len(records) > 1 else 'of'} {example}"
 
 
 @contextmanager
