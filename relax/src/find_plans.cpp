@@ -156,7 +156,8 @@ Cost FindPlans::enough() const {
 
 // The node has been expanded, or priced anew, since the entry was made.
 bool FindPlans::is_stale(const OpenList::Entry& entry) const {
-    return nodes_[entry.node].is_expanded || priority(entry.node) != entry.priority;
+    const SearchNode& node = nodes_[entry.node];
+    return node.is_expanded || node.h != entry.h || priority(entry.node) != entry.priority;
 }
 
 // Ask the heuristics that have not been asked about this pair of state and network, until one of them raises f. Returns

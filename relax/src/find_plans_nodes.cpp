@@ -11,6 +11,7 @@ namespace relax {
 namespace {
 
 constexpr Cost kDeadEnd = kNoDecomposition;
+constexpr Cost kLastPriority = kMostCost - 1;  // of what is still worth a look
 
 }  // namespace
 
@@ -77,13 +78,20 @@ bool FindPlans::is_too_dear(const SearchNode& node) {
            (statistics_.best && f >= *statistics_.best);
 }
 
+// What is open has g + h below `kMostCost`. A large weight changes the order only: it drops nothing. The last priority is
+// at most g + weight h and at least g + h, as every priority is. So the promise of `enough` holds with it, and what is
+// popped is never too dear.
 Cost FindPlans::priority(NodeId id) const {
     const SearchNode& node = nodes_[id];
     if (options_.algorithm == SearchAlgorithm::AStar) {
         return node.g + node.h;
     }
-    const double weighted = std::ceil(options_.weight * static_cast<double>(node.h));
-    return add_bounds(node.g, weighted < static_cast<double>(kDeadEnd) ? static_cast<Cost>(weighted) : kDeadEnd);
+    if (node.h >= kDeadEnd) {
+        return kDeadEnd;
+    }
+    const double product = std::ceil(options_.weight * static_cast<double>(node.h));
+    const Cost weighted = product < static_cast<double>(kLastPriority) ? static_cast<Cost>(product) : kLastPriority;
+    return std::min(add_bounds(node.g, std::max(node.h, weighted)), kLastPriority);
 }
 
 void FindPlans::push(NodeId id) {
