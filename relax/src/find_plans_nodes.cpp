@@ -78,9 +78,9 @@ bool FindPlans::is_too_dear(const SearchNode& node) {
            (statistics_.best && f >= *statistics_.best);
 }
 
-// What is open has g + h below `kMostCost`. A large weight changes the order only: it drops nothing. The last priority is
-// at most g + weight h and at least g + h, as every priority is. So the promise of `enough` holds with it, and what is
-// popped is never too dear.
+// What is open has g + h below `kMostCost`. A large weight changes the order only: it drops nothing. The last priority
+// is at most g + weight h and at least g + h, as every priority is. So the promise of `enough` holds with it, and what
+// is popped is never too dear.
 Cost FindPlans::priority(NodeId id) const {
     const SearchNode& node = nodes_[id];
     if (options_.algorithm == SearchAlgorithm::AStar) {

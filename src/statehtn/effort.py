@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 
+from statehtn.counted import counted
+
 
 @dataclass(frozen=True, slots=True)
 class Statistics:
@@ -23,6 +25,12 @@ class Statistics:
     search_seconds: float | None = None
     validate_seconds: float | None = None
     peak_memory_mb: float | None = None
+
+    @property
+    def sizes(self) -> str:
+        """What was grounded in words, such as `2 facts, 1 action, 1 task, 2 methods`; empty where nothing was."""
+        numbers = {"fact": self.facts, "action": self.actions, "task": self.tasks, "method": self.methods}
+        return ", ".join(counted(number, noun) for noun, number in numbers.items() if number is not None)
 
 
 def peak_memory_mb() -> float | None:

@@ -12,6 +12,7 @@ from statehtn.core.plan_based import search_plans
 from statehtn.core.progress import Progress
 from statehtn.core.search import improving_plans, last_of
 from statehtn.core.staged_run import SearchOutcome
+from statehtn.counted import counted
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.expected import function
 from statehtn.found_plan import SECONDS_TO_VALIDATE, validated_and_priced
@@ -197,7 +198,7 @@ def measured_ground(problem: Problem, limits: Limits, statistics: Statistics) ->
     except ENDINGS as ending:
         log.info("grounding: %s after %.3f s", status_of(ending), time.perf_counter() - start)
         return status_of(ending), replace(statistics, ground_seconds=time.perf_counter() - start)
-    counted = replace(
+    statistics = replace(
         statistics,
         facts=grounding.fact_count,
         actions=grounding.action_count,
@@ -205,11 +206,8 @@ def measured_ground(problem: Problem, limits: Limits, statistics: Statistics) ->
         methods=grounding.method_count,
         ground_seconds=time.perf_counter() - start,
     )
-    log.info(
-        "grounding: %.3f s, %d facts, %d actions, %d tasks, %d methods",
-        *(counted.ground_seconds, counted.facts, counted.actions, counted.tasks, counted.methods),
-    )
-    return grounding, counted
+    log.info("grounding: %.3f s, %s", statistics.ground_seconds, statistics.sizes)
+    return grounding, statistics
 
 
 def _solve(
@@ -310,7 +308,9 @@ def _uninterrupted(
 
 def _tell(result: Result) -> None:
     """Log how far a search has come."""
-    plan = "no plan" if result.plan is None else f"a plan of {result.length} steps for {result.risk_cost:.10g}"
+    plan = "no plan"
+    if result.length is not None:
+        plan = f"a plan of {counted(result.length, 'step')} for {result.risk_cost:.10g}"
     bound = "no bound" if result.lower_bound is None else f"bound {result.lower_bound:.10g}"
     seconds = result.statistics.search_seconds or 0.0
     log.info("search: %s, %s, %s after %.3f s", result.status, plan, bound, seconds)

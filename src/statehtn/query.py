@@ -97,7 +97,7 @@ def mismatch(solver: str, heuristic: str | None, search: str) -> str | None:
         usable = " and ".join(PLAN_BASED_HEURISTICS)
         return f"the solver 'plan' has no state, which '{heuristic}' needs; its heuristics are {usable}"
     if heuristic is not None and search != "greedy" and (reason := why_refused(heuristic, f"the search '{search}'")):
-        return reason
+        return f"{reason}, or '{heuristic}' with greedy search"
     if heuristic == PORTFOLIO and search not in PORTFOLIO_SEARCHES:
         return f"'{PORTFOLIO}' goes with the searches {' and '.join(PORTFOLIO_SEARCHES)}, not with '{search}'"
     return None

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from statehtn.counted import counted
 from statehtn.display.law import brief
 from statehtn.display.result import result_html, result_text, steps_html
 from statehtn.effort import Statistics
@@ -99,7 +100,9 @@ class Result:
 
     def __repr__(self) -> str:
         agent = self.attitude if self.alpha is None else f"{self.attitude} {self.alpha:g}"
-        plan = "no plan" if self.plan is None else f"{self.length} steps, certainty equivalent {self.risk_cost:.10g}"
+        plan = "no plan"
+        if self.length is not None:
+            plan = f"{counted(self.length, 'step')}, certainty equivalent {self.risk_cost:.10g}"
         return f"<result for {agent}: {self.status}, {plan}>"
 
     def __bool__(self) -> bool:

@@ -9,9 +9,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, cast
 
-from statehtn.core.heuristics import HEURISTICS, why_refused
+from statehtn.core.heuristics import ADMISSIBLE, why_refused
 from statehtn.core.progress import TopProgress
 from statehtn.core.top_plans import DISTINCT, TopOutcome, find_top_plans
+from statehtn.counted import counted
 from statehtn.effort import Statistics, peak_memory_mb
 from statehtn.errors import UsageError
 from statehtn.expected import function, one_of, whole_number
@@ -61,9 +62,10 @@ class TopQuery:
         if not 1 <= whole_number(k, "the number of plans") <= MOST_PLANS:
             raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {k}")
         one_of(distinct, DISTINCT, "value of 'distinct'")
-        heuristic = DEFAULT_TOP_HEURISTIC if heuristic is None else one_of(heuristic, HEURISTICS, "heuristic")
+        heuristic = DEFAULT_TOP_HEURISTIC if heuristic is None else heuristic
         if reason := why_refused(heuristic, "the search for the best plans"):
             raise UsageError(reason)
+        one_of(heuristic, ADMISSIBLE, "heuristic for the best plans")
         return TopQuery(k, utility, distinct, heuristic)
 
 
@@ -179,7 +181,8 @@ def _solve(
         dead_ends=outcome.dead_ends,
         search_seconds=time.perf_counter() - start,
     )
-    log.info("search: %d plans, %d proven, %.3f s", len(outcome.plans), outcome.proven, statistics.search_seconds)
+    plans_found = counted(len(outcome.plans), "plan")
+    log.info("search: %s, %d proven, %.3f s", plans_found, outcome.proven, statistics.search_seconds)
     begin = time.perf_counter()
     found, stopped = _validated(problem, query.utility, outcome, limits)
     plans = tuple(_ranked(found, outcome.proven, query.utility))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, overload
 
+from statehtn.counted import counted
 from statehtn.display.top_plans import top_plans_html, top_plans_text
 from statehtn.effort import Statistics
 from statehtn.model.plan import Plan
@@ -37,7 +38,7 @@ class RankedPlan:
 
     def __repr__(self) -> str:
         proven = "" if self.is_proven else ", not proven"
-        return f"<plan {self.rank}: {self.length} steps, certainty equivalent {self.risk_cost:.10g}{proven}>"
+        return f"<plan {self.rank}: {counted(self.length, 'step')}, certainty equivalent {self.risk_cost:.10g}{proven}>"
 
     @property
     def length(self) -> int:
@@ -116,7 +117,7 @@ class TopPlans(Sequence[RankedPlan]):
 
     def __repr__(self) -> str:
         agent = self.attitude if self.alpha is None else f"{self.attitude} {self.alpha:g}"
-        return f"<{len(self.plans)} plans for {agent}: {self.status}, {self.proven} proven>"
+        return f"<{counted(len(self.plans), 'plan')} for {agent}: {self.status}, {self.proven} proven>"
 
     @overload
     def __getitem__(self, index: int) -> RankedPlan: ...

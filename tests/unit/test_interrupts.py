@@ -123,7 +123,7 @@ def test_phases_and_better_plans_are_logged(caplog: pytest.LogCaptureFixture) ->
     for words in (
         "grounding: ",
         "2 tasks",
-        "search: optimal, a plan of 1 steps for 3.4, bound 3.4",
+        "search: optimal, a plan of 1 step for 3.4, bound 3.4",
         "2 plans, 2 proven",
     ):
         assert words in text

@@ -68,7 +68,7 @@ def test_everything_is_shown_in_short(many: dict[str, object]) -> None:
         ("sum", "<CostSum: 100 independent parts, from "),
         ("valid", "<validation: valid, 300 steps, expected cost "),
         ("invalid", "<validation: invalid: "),
-        ("top", "<1 plans for neutral: optimal, 1 proven>"),
+        ("top", "<1 plan for neutral: optimal, 1 proven>"),
         ("ranked", "<plan 1: 300 steps, certainty equivalent "),
         ("comparison", "<comparison of averse 1, neutral, seeking 1>"),
     ],

@@ -200,7 +200,7 @@ def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None
     )
     parser.add_argument("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of the search in 'statehtn plan'")
     parser.add_argument("--search", choices=("astar", "anytime", "greedy"), default="astar", help="default: astar")
-    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds for each agent")
+    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds for reading, and then for each agent")
     parser.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
     parser.add_argument("--json", action="store_true", help="print the comparison as one JSON object")
 

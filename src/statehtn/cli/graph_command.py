@@ -12,6 +12,7 @@ from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.streams import emit
 from statehtn.core.grounding import PLAIN, ground
+from statehtn.counted import counted
 from statehtn.decomposition import (
     ground_task_decomposition_graph,
     task_decomposition_graph,
@@ -53,7 +54,8 @@ def run_graph(options: argparse.Namespace) -> ExitCode:
     graph = make_graph(problem, options.kind, utility)
     output.write(FORMATS[form](graph))
     if not output.is_stdout:
-        emit(f"{one_line(options.output)}: {len(graph)} nodes, {graph.number_of_edges()} edges")
+        sizes = f"{counted(len(graph), 'node')}, {counted(graph.number_of_edges(), 'edge')}"
+        emit(f"{one_line(options.output)}: {sizes}")
     return ExitCode.SUCCESS
 
 

@@ -41,7 +41,7 @@ class ProgressLine:
 
     def show_top(self, progress: TopProgress) -> None:
         """Describe a search for several plans as it is now."""
-        parts = [f"{progress.found:,} plans found", f"{progress.proven:,} proven"]
+        parts = [f"{progress.found:,} plan{'' if progress.found == 1 else 's'} found", f"{progress.proven:,} proven"]
         if progress.lower_bound is not None:
             parts.append(f"no other costs less than {progress.lower_bound:.6g}")
         self._describe(progress, parts)

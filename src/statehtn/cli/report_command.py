@@ -8,6 +8,7 @@ from pathlib import Path
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import OutputFile
 from statehtn.cli.streams import emit
+from statehtn.counted import counted
 from statehtn.errors import one_line
 from statehtn.experiments.report import read_outcomes, report_page
 
@@ -25,5 +26,6 @@ def run_report(options: argparse.Namespace) -> ExitCode:
     page = report_page(outcomes, results.name)
     output.write(page)
     if not output.is_stdout:
-        emit(f"{one_line(options.output)}: {len(outcomes)} runs, {len(page.encode()) / 1000:.0f} kB")
+        sizes = f"{counted(len(outcomes), 'run')}, {len(page.encode()) / 1000:.0f} kB"
+        emit(f"{one_line(options.output)}: {sizes}")
     return ExitCode.SUCCESS

@@ -15,6 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from statehtn.cli.long_table import LongTable
+from statehtn.counted import counted
 from statehtn.display.top_plans import compact_actions
 from statehtn.effort import Statistics
 from statehtn.model.law import CostLaw
@@ -139,7 +140,7 @@ def _values_table(result: TopPlans) -> Table:
     table = _table(*((heading, "right") for heading in headings))
     count = "The best plan" if len(result) == 1 else f"The {len(result)} best plans"
     if result.proven < len(result):
-        count = f"The best {len(result)} plans so far"
+        count = "The best plan so far" if len(result) == 1 else f"The best {len(result)} plans so far"
     elif result.is_all:
         count = "The only plan" if len(result) == 1 else f"All {len(result)} plans"
     table.title = f"{count} for {_agent(result)}"
@@ -178,10 +179,11 @@ def _top_rows(result: TopPlans) -> list[tuple[str, str]]:
     if result.stopped is None:
         rows = [("status", "solved: there may be better plans, within the error of the certainty equivalents")]
     else:
-        rows = [("status", f"{STOPS[result.stopped]} before {result.k} plans were found and proven to be the best")]
+        wanted = "a plan was" if result.k == 1 else f"{result.k} plans were"
+        rows = [("status", f"{STOPS[result.stopped]} before {wanted} found and proven to be the best")]
     if result.proven:
         which = "these are" if result.proven == len(result) else f"the first {result.proven} are"
-        rows.append(("proven", f"{which} the best"))
+        rows.append(("proven", "the first is the best" if result.proven == 1 else f"{which} the best"))
     if result.lower_bound is not None:
         rows.append(("proven", f"no other plan {others}"))
     return rows
@@ -255,11 +257,11 @@ def _bound_row(result: Result) -> list[tuple[str, str]]:
 def _effort_rows(effort: Statistics) -> list[tuple[str, str]]:
     rows = []
     if effort.facts is not None:
-        sizes = f"{effort.facts} facts, {effort.actions} actions, {effort.tasks} tasks, {effort.methods} methods"
-        rows.append(("grounded", sizes))
+        rows.append(("grounded", effort.sizes))
     if effort.expanded is not None:
-        nodes = f"{effort.expanded} nodes expanded, {effort.generated} generated, {effort.evaluated} evaluated"
-        rows.append(("searched", f"{nodes}, {effort.dead_ends} dead ends"))
+        nodes, dead_ends = counted(effort.expanded, "node"), counted(effort.dead_ends or 0, "dead end")
+        others = f"{effort.generated} generated, {effort.evaluated} evaluated"
+        rows.append(("searched", f"{nodes} expanded, {others}, {dead_ends}"))
     phases = (
         ("reading", effort.parse_seconds),
         ("grounding", effort.ground_seconds),

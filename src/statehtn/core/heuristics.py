@@ -105,7 +105,7 @@ def why_refused(heuristic: str, search: str) -> str | None:
         return None
     return (
         f"'{heuristic}' may estimate more than is true, so that {search} could not keep what it promises; take one of "
-        f"{', '.join(ADMISSIBLE)}, or '{heuristic}' with greedy search"
+        f"{', '.join(ADMISSIBLE)}"
     )
 
 

@@ -9,6 +9,8 @@ from html import escape
 
 from statehtn.display.table import Column, Table
 
+TIE = 1e-9
+"""Plans whose prices for an agent differ by no more than this part of them are equally good for it."""
 EDGE = 3
 """So many actions at each end of a long stretch are shown; those between them are counted."""
 NOTES = (
@@ -115,26 +117,33 @@ def _shortened(rows: Sequence[tuple[bool, Sequence[str]]], width: int) -> Iterat
 def _costs(plans: Sequence[ComparedPlan]) -> Table:
     heads = ("least", "expected", "most", *(f"for {plan.agent}" for plan in plans))
     rows = []
-    for index, plan in enumerate(plans):
+    own = [plan.prices[index] if plan.status == "optimal" else None for index, plan in enumerate(plans)]
+    for plan in plans:
         if plan.expected is None:
             rows.append((f"of the {plan.agent}", *("" for _ in heads[:-1]), plan.status))
             continue
         prices = [
-            f"{_number(price)}{'*' if at == index and plan.status == 'optimal' else ' '}"
-            for at, price in enumerate(plan.prices)
+            f"{_number(price)}{'*' if _are_equal(price, best) else ' '}"
+            for price, best in zip(plan.prices, own, strict=True)
         ]
         rows.append((f"of the {plan.agent}", _number(plan.least), _number(plan.expected), _number(plan.most), *prices))
     return Table((Column("cost of the plan"), *(Column(head, is_number=True) for head in heads)), rows)
 
 
 def _reason_lines(reason: Reason) -> Iterator[str]:
-    yield (
-        f"{reason.agent} instead of {reason.other}: {_number(reason.cost)}, not {_number(reason.other_cost)}, "
-        f"by its own measure"
-    )
+    if _are_equal(reason.cost, reason.other_cost):
+        same = f"the plan of {reason.other} is as good as its own, {_number(reason.cost)}, by its own measure"
+        yield f"{reason.agent}: {same}"
+        return
+    price, other_price = _apart(reason.cost, reason.other_cost)
+    yield f"{reason.agent} instead of {reason.other}: {price}, not {other_price}, by its own measure"
     for own, cost, other, other_cost in reason.parts:
         yield f"  {_number(cost):>8}  {_actions(own)}"
         yield f"  {_number(other_cost):>8}  instead of {_actions(other)}"
+
+
+def _are_equal(price: float | None, other: float | None) -> bool:
+    return price is not None and other is not None and math.isclose(price, other, rel_tol=TIE)
 
 
 def _actions(actions: Sequence[str]) -> str:
@@ -146,5 +155,11 @@ def _actions(actions: Sequence[str]) -> str:
     return " ".join((*actions[:EDGE], f"... {hidden} more ...", *actions[-EDGE:]))
 
 
-def _number(value: float | None) -> str:
-    return "" if value is None else "unbounded" if math.isinf(value) else f"{value:.4g}"
+def _apart(cost: float, other: float) -> tuple[str, str]:
+    """Return two different prices with as many digits as it takes to tell them apart."""
+    texts = ((_number(cost, digits), _number(other, digits)) for digits in range(4, 18))
+    return next(pair for pair in texts if pair[0] != pair[1])
+
+
+def _number(value: float | None, digits: int = 4) -> str:
+    return "" if value is None else "unbounded" if math.isinf(value) else f"{value:.{digits}g}"

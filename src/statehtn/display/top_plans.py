@@ -8,6 +8,7 @@ from html import escape
 from itertools import takewhile
 from typing import Protocol
 
+from statehtn.counted import counted
 from statehtn.display.table import Column, Table
 
 COLUMNS = (
@@ -103,7 +104,7 @@ def _shared(sequences: Sequence[Sequence[str]]) -> int:
 def _head(result: ShownPlans) -> str:
     agent = result.attitude if result.alpha is None else f"{result.attitude}, alpha {result.alpha:g}"
     count = "all plans" if result.is_all else f"{result.proven} proven"
-    return f"status: {result.status} (risk-{agent}), {len(result.plans)} plans, {count}"
+    return f"status: {result.status} (risk-{agent}), {counted(len(result.plans), 'plan')}, {count}"
 
 
 def _table(result: ShownPlans) -> Table:

@@ -11,6 +11,7 @@ from unified_planning.engines.results import LogLevel, PlanGenerationResultStatu
 from unified_planning.exceptions import UPUsageError
 
 from statehtn.core.progress import Progress
+from statehtn.counted import counted
 from statehtn.engine.parameters import NAME, Parameters
 from statehtn.errors import InternalError, StateHtnError, UsageError
 from statehtn.interop.conversion import Conversion
@@ -138,6 +139,7 @@ def progress_writer(stream: IO[str]) -> Callable[[Progress], None]:
         if last != [now]:
             last[:] = [now]
             bound, best = ("-" if number is None else f"{number:g}" for number in now)
-            stream.write(f"{progress.seconds:.1f} s: {progress.expanded} nodes, bound {bound}, best plan {best}\n")
+            nodes = counted(progress.expanded, "node")
+            stream.write(f"{progress.seconds:.1f} s: {nodes}, bound {bound}, best plan {best}\n")
 
     return write

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from statehtn.counted import counted
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.expressions import Node
 from statehtn.hddl.tokens import Source, concise, shortened
@@ -45,7 +46,8 @@ class Diagnostics:
         for message in self.found:
             warn(HddlWarning(message), stacklevel + 1)
         if self.omitted:
-            warn(HddlWarning(f"{self.omitted} more warnings are left out"), stacklevel + 1)
+            are = "is" if self.omitted == 1 else "are"
+            warn(HddlWarning(f"{counted(self.omitted, 'more warning')} {are} left out"), stacklevel + 1)
 
 
 class Reporter:

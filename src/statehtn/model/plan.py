@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
+from statehtn.counted import counted
 from statehtn.errors import UsageError
 from statehtn.expected import expect, items, whole_number
 from statehtn.model.law import CostLaw
@@ -97,7 +98,7 @@ class Plan:
     def __repr__(self) -> str:
         shown = [str(step) for step in self.steps[:MOST_SHOWN]]
         more = ["..."] if len(self.steps) > MOST_SHOWN else []
-        return f"<plan of {len(self.steps)} steps: {' '.join(shown + more)}>"
+        return f"<plan of {counted(len(self.steps), 'step')}: {' '.join(shown + more)}>"
 
     @property
     def decomposition(self) -> DecompositionTree:
@@ -120,7 +121,7 @@ class Plan:
         """
         laws = tuple(expect(law, CostLaw, "expected the law of each step's cost") for law in items(costs, "the costs"))
         if len(laws) != len(self.steps):
-            raise UsageError(f"a plan of {len(self.steps)} steps needs a cost for each, found {len(laws)}")
+            raise UsageError(f"a plan of {counted(len(self.steps), 'step')} needs a cost for each, found {len(laws)}")
         return replace(self, costs=laws)
 
     def cost_distribution(self) -> CostLaw:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
 
+from statehtn.counted import counted
 from statehtn.model.formula import TRUE, And, Formula
 from statehtn.model.plan import Decomposition, Step
 from statehtn.model.problem import Method, TaskNetwork
@@ -205,7 +206,8 @@ class _Matcher:
         for subtask, child in zip(lifted.subtasks, children, strict=False):
             expected = _text(subtask.task, substitute(subtask.arguments, bindings))
             if isinstance(child, int) and not 0 <= child < len(steps):
-                yield f"{title}: for subtask {expected} there is no step {child + 1}; the plan has {len(steps)} steps"
+                there_are = counted(len(steps), "step")
+                yield f"{title}: for subtask {expected} there is no step {child + 1}; the plan has {there_are}"
                 continue
             if isinstance(child, int):
                 task, arguments, fits = steps[child].action, steps[child].arguments, subtask.task in actions

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from statehtn.collector import without_collector
+from statehtn.counted import counted
 from statehtn.limits import Limits
 from statehtn.model.expect import expect_plan, expect_problem, expect_utility
 from statehtn.model.law import CostLaw
@@ -68,8 +69,8 @@ class Validation:
         from statehtn.display.law import brief
 
         if self.valid:
-            return f"<validation: valid, {len(self.costs)} steps, expected cost {self.expected_cost:.10g}>"
-        more = f" (and {len(self.reasons) - 1} more reasons)" if len(self.reasons) > 1 else ""
+            return f"<validation: valid, {counted(len(self.costs), 'step')}, expected cost {self.expected_cost:.10g}>"
+        more = f" (and {counted(len(self.reasons) - 1, 'more reason')})" if len(self.reasons) > 1 else ""
         return f"<validation: invalid: {brief(self.reasons[0])}{more}>"
 
     def _repr_html_(self) -> str:
