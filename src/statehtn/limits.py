@@ -15,8 +15,11 @@ from statehtn.expected import number
 from statehtn.model.status import Status
 
 
-class LimitReached(Exception):
-    """A limit ended a phase before it had anything to show; the planner turns it into a result."""
+class LimitReached(BaseException):
+    """A limit ended a phase before it had anything to show; the planner turns it into a result.
+
+    As with `KeyboardInterrupt`, no `except Exception` of a library or of a user's callable is to swallow it.
+    """
 
     def __init__(self, status: Status) -> None:
         self.status = status

@@ -36,6 +36,7 @@ def read_costs(file: str | os.PathLike[str], limits: Limits = Limits()) -> CostT
 
     The file has a list `costs` of tables: `action`, `arguments` where only some instances are meant, and one of
     `cost`, `outcomes`, `samples`, `counts` (with `prior`) and `distribution` (with `parameters`). See docs/costs.md.
+    The `limits` hold while it and files of samples are read.
 
     Raises:
         InputError: the file cannot be read, or says something that makes no sense; the message names file, entry and
