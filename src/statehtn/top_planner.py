@@ -63,7 +63,7 @@ class TopQuery:
             raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {k}")
         one_of(distinct, DISTINCT, "value of 'distinct'")
         heuristic = DEFAULT_TOP_HEURISTIC if heuristic is None else heuristic
-        if reason := why_refused(heuristic, "the search for the best plans"):
+        if isinstance(heuristic, str) and (reason := why_refused(heuristic, "the search for the best plans")):
             raise UsageError(reason)
         one_of(heuristic, ADMISSIBLE, "heuristic for the best plans")
         return TopQuery(k, utility, distinct, heuristic)
