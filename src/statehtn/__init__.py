@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING, Any
 from statehtn.errors import InputError, Place, StateHtnError, UnsupportedError, UsageError
 from statehtn.model import CostDistribution, CostLaw, Decomposition, Plan, Problem, Step
 from statehtn.model.status import Status
-from statehtn.validate import Validation  # a package of the name of the function, which has to come after it
-from statehtn.verify import validate
 
 if TYPE_CHECKING:
     __version__: str
@@ -43,6 +41,8 @@ if TYPE_CHECKING:
     from statehtn.tabulate import tabulate_costs
     from statehtn.top_planner import top_plans
     from statehtn.top_result import RankedPlan, TopPlans
+    from statehtn.validation import Validation
+    from statehtn.verify import validate
 
 __all__ = [
     "HEURISTICS",
@@ -128,6 +128,8 @@ _MODULES_FOR_LATER = {
     "tabulate": ("tabulate_costs",),
     "top_planner": ("top_plans",),
     "top_result": ("RankedPlan", "TopPlans"),
+    "validation": ("Validation",),
+    "verify": ("validate",),
 }
 """Where names are whose modules are imported when one of them is asked for, so that `import statehtn` is quick."""
 _LATER = {name: f"statehtn.{module}" for module, names in _MODULES_FOR_LATER.items() for name in names}

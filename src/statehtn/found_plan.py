@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 from statehtn.errors import InternalError
 from statehtn.limits import ENDINGS, Limits, status_of
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.law import CostLaw
+from statehtn.model.cost.unknown import refuse_unknown
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.model.unknown_cost import refuse_unknown
 from statehtn.result import PricedStep, PricedSteps
 from statehtn.risk import Utility
-from statehtn.validate import validate
+from statehtn.validation import validate
 
 SECONDS_TO_VALIDATE = 0.2
 """A plan that is found right before the time is over is given that long: enough for some thousands of steps."""

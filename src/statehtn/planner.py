@@ -20,10 +20,10 @@ from statehtn.hddl import read_hddl
 from statehtn.interrupt import OnInterrupt, check_interrupt, returned
 from statehtn.limits import ENDINGS, STOPS, Limits, status_of, watched
 from statehtn.log import log
+from statehtn.model.cost.unknown import MissingNumber
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.model.unknown_cost import MissingNumber
 from statehtn.query import BranchName, HeuristicName, Query, SearchName, SolverName
 from statehtn.result import Result
 from statehtn.risk import Attitude, AttitudeName, problem_class

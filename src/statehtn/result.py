@@ -11,8 +11,8 @@ from statehtn.counted import counted
 from statehtn.display.law import brief
 from statehtn.display.result import result_html, result_text, steps_html
 from statehtn.effort import Statistics
-from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.plan import MOST_SHOWN, Plan, Step
 from statehtn.model.status import Status
 from statehtn.risk import Utility

@@ -9,8 +9,8 @@ from fractions import Fraction
 from statehtn.core.grounding import Grounding, ground
 from statehtn.errors import UnsupportedError
 from statehtn.model import Action, CostBlock, CostDistribution, Expression, FunctionTerm, Number, Problem, Signature
-from statehtn.model.cost_law import block_law
-from statehtn.model.costs import exact
+from statehtn.model.cost.blocks import exact
+from statehtn.model.cost.ground_cost import block_law
 from statehtn.model.expect import expect_problem
 
 Arguments = tuple[str, ...]

@@ -11,8 +11,8 @@ from statehtn.model import And, Atom, Decomposition, Effect, Equals, Method, Pla
 from statehtn.model.expect import expect_plan, expect_problem
 from statehtn.model.problem import Action, TaskNetwork
 from statehtn.model.status import Status
-from statehtn.validate import Validation, execute_steps
-from statehtn.validate import validate as validate_plan
+from statehtn.validation import Validation, execute_steps
+from statehtn.validation import validate as validate_plan
 
 TURN, DO = "turn {}", "do {}"
 """What a list of actions adds to a problem: facts that say whose turn it is, and an action for each place in the list.

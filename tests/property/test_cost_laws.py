@@ -12,11 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-import statehtn.model.total_cost as totals
+import statehtn.model.cost.total as totals
 from statehtn.model import CostDistribution, CostLaw, CostSum
-from statehtn.model.moment_generating import CLOSED_FORMS, _closed_form, _integrated, exponential_mean
-from statehtn.model.scipy_cost import ScipyCost
-from statehtn.model.total_cost import TotalCost, total_cost
+from statehtn.model.cost.numerics.moment_generating import CLOSED_FORMS, _closed_form, _integrated, exponential_mean
+from statehtn.model.cost.scipy_law import ScipyCost
+from statehtn.model.cost.total import TotalCost, total_cost
 
 TENTHS = st.integers(0, 60).map(lambda value: value / 10)
 

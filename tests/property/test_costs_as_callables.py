@@ -11,7 +11,7 @@ import statehtn
 from statehtn.build import ExternalFunction
 from statehtn.core.grounding import ground
 from statehtn.model import Action, CostBlock, CostDistribution, Problem
-from statehtn.model.cost_law import block_law
+from statehtn.model.cost.ground_cost import block_law
 from tests.strategies import problems
 
 

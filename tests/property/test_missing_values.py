@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import statehtn
 from statehtn.model import Action, CostBlock, FunctionTerm, Number, Problem
-from statehtn.model.unknown_cost import MissingNumber
+from statehtn.model.cost.unknown import MissingNumber
 from statehtn.query import SolverName
 from statehtn.result import Result
 from statehtn.risk import Exponential, Utility

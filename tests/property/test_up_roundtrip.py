@@ -12,7 +12,7 @@ from statehtn import Problem, Status, UnsupportedError, validate
 from statehtn.engine import StateHtnEngine
 from statehtn.interop.conversion import Conversion
 from statehtn.model import Equals, Not
-from statehtn.model.cost_law import is_unconditional
+from statehtn.model.cost.ground_cost import is_unconditional
 from tests.differential.oracles import close_to, solve_or_drop
 from tests.normal_form import normal_form
 from tests.strategies import problems, utilities

@@ -30,7 +30,7 @@ from statehtn.model import (
     Subtask,
     TaskNetwork,
 )
-from statehtn.validate import validate
+from statehtn.validation import validate
 
 FACTS = ("f", "g")
 SWITCHES = {"set-f": ("f", True), "clear-f": ("f", False), "set-g": ("g", True), "clear-g": ("g", False)}

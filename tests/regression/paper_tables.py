@@ -13,7 +13,7 @@ import statehtn
 from statehtn.experiments.report import paper_tables
 from statehtn.model import Plan, Problem
 from statehtn.result import Result
-from statehtn.validate import validate
+from statehtn.validation import validate
 
 FOLDERS = (Path(__file__).parent / "tables", paper_tables.FOLDER)
 DOMAINS = Path(__file__).parents[2] / "domains"

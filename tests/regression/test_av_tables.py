@@ -13,7 +13,7 @@ from statehtn.model import CostDistribution, Plan
 from statehtn.reference import Heuristic as ReferenceHeuristic
 from statehtn.reference import blind, find_plans, hmax
 from statehtn.risk import expected_utility_text, plan_expected_cost, plan_risk_cost, utility_for
-from statehtn.validate import validate
+from statehtn.validation import validate
 from tests.brute_force import all_plans
 from tests.regression.paper_tables import (
     ADMISSIBLE_HEURISTICS,

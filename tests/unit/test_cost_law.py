@@ -22,8 +22,8 @@ from statehtn.model import (
     Number,
     Parameter,
 )
-from statehtn.model.cost_law import CostWarning, action_law, block_law, evaluate
-from statehtn.model.exponential_mean import exponential_mean_of
+from statehtn.model.cost.ground_cost import CostWarning, action_law, block_law, evaluate
+from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
 
 VALUES = {("slow", "a", "b"): Fraction(6), ("fast", "a", "b"): Fraction(2), ("jam",): Fraction(1, 4)}
 FROM_TO = (Parameter("?a"), Parameter("?b"))

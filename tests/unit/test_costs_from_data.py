@@ -14,10 +14,10 @@ from scipy import stats
 
 import statehtn
 from statehtn.model import CostDistribution, CostSum
+from statehtn.model.cost.sampled import SampledCost
+from statehtn.model.cost.scipy_law import ScipyCost
+from statehtn.model.cost.total import TotalCost
 from statehtn.model.plan import Plan, Step
-from statehtn.model.sampled import SampledCost
-from statehtn.model.scipy_cost import ScipyCost
-from statehtn.model.total_cost import TotalCost
 
 AV = ("domains/av/domain.hddl", "domains/av/p1.hddl")
 AVERSE = statehtn.utility_for("averse", 0.4)

@@ -14,7 +14,7 @@ from statehtn.hddl import read_hddl_text
 from statehtn.hddl.plan_format import read_plan, write_plan
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import Decomposition, Plan, Problem, Step
-from statehtn.validate import validate
+from statehtn.validation import validate
 
 # A walk of any length, there and back; whoever goes on must be where the method says.
 WALK = """

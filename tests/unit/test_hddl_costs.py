@@ -24,7 +24,7 @@ from statehtn.model import (
     Problem,
     TaskNetwork,
 )
-from statehtn.model.cost_law import action_law
+from statehtn.model.cost.ground_cost import action_law
 from statehtn.model.problem import Action
 
 DECLARATIONS = (

@@ -15,9 +15,9 @@ from scipy import special, stats
 from statehtn import CostDistribution, InputError, UnsupportedError, read_costs
 from statehtn.cli import main
 from statehtn.limits import LimitReached, Limits, watched
-from statehtn.model.moment_generating import _integrated
-from statehtn.model.quadrature import log_moment_by_quantiles
-from statehtn.model.scipy_cost import ScipyCost
+from statehtn.model.cost.numerics.moment_generating import _integrated
+from statehtn.model.cost.numerics.quadrature import log_moment_by_quantiles
+from statehtn.model.cost.scipy_law import ScipyCost
 
 DOMAIN = "(define (domain d) (:predicates (there)) (:action go :parameters () :effect (there)))"
 PROBLEM = "(define (problem p) (:domain d) (:htn :subtasks (go)) (:init))"

@@ -24,7 +24,7 @@ from statehtn.model import (
     Subtask,
     TaskNetwork,
 )
-from statehtn.validate import validate
+from statehtn.validation import validate
 
 X = (Parameter("?x"),)
 XY = (Parameter("?x"), Parameter("?y"))

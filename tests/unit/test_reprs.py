@@ -8,7 +8,7 @@ import pytest
 
 import statehtn
 from statehtn import CostDistribution, Decomposition, Plan, Step
-from statehtn.model.cost_sum import CostSum
+from statehtn.model.cost.sum import CostSum
 from tests.test_minimal import DOMAIN, PROBLEM
 
 LONG = """

@@ -41,7 +41,7 @@ from statehtn.model import (
 )
 from statehtn.model.status import Status
 from statehtn.risk import Neutral, utility_for
-from statehtn.validate import Validation, validate
+from statehtn.validation import Validation, validate
 
 
 def variables(**types: str) -> tuple[Parameter, ...]:

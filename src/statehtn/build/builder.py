@@ -22,7 +22,7 @@ from statehtn.model import (
     Problem,
     TaskNetwork,
 )
-from statehtn.model.costs import Amount, exact
+from statehtn.model.cost.blocks import Amount, exact
 from statehtn.model.expect import expect_problem
 from statehtn.model.formula import Combinable
 

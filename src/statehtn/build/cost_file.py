@@ -16,8 +16,8 @@ from statehtn.expected import file_name
 from statehtn.keyed_file import KeyedTable, read_tables
 from statehtn.limits import Limits
 from statehtn.model import CostDistribution, CostLaw
-from statehtn.model.scipy_call import scipy_call
-from statehtn.model.scipy_cost import ScipyCost
+from statehtn.model.cost.scipy_call import scipy_call
+from statehtn.model.cost.scipy_law import ScipyCost
 from statehtn.read_file import read_named
 
 OWN_KEYS = ("action", "arguments")

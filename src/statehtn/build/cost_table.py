@@ -8,7 +8,7 @@ from statehtn.errors import InputError
 from statehtn.hddl.diagnostics import unknown
 from statehtn.hddl.spelling import Spellings
 from statehtn.model import Action, And, CostBlock, CostDistribution, CostLaw, Equals, Formula, Not, Problem
-from statehtn.model.costs import block_of
+from statehtn.model.cost.blocks import block_of
 from statehtn.model.expect import expect_problem
 from statehtn.model.formula import TRUE
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.model import Parameter
-from statehtn.model.costs import ExternalCost
+from statehtn.model.cost.blocks import ExternalCost
 
 
 @dataclass(frozen=True, slots=True)

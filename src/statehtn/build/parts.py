@@ -32,9 +32,9 @@ from statehtn.model import (
     Number,
     Parameter,
 )
-from statehtn.model.costs import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, block_of, exact
+from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, block_of, exact
+from statehtn.model.cost.law import is_of_scipy
 from statehtn.model.formula import Combinable
-from statehtn.model.law import is_of_scipy
 
 
 @dataclass(frozen=True, slots=True)

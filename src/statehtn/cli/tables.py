@@ -18,11 +18,11 @@ from statehtn.cli.long_table import LongTable
 from statehtn.counted import counted
 from statehtn.display.top_plans import compact_actions
 from statehtn.effort import Statistics
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.status import Status
 from statehtn.result import Result
 from statehtn.top_result import TopPlans
-from statehtn.validate import Validation
+from statehtn.validation import Validation
 
 if TYPE_CHECKING:
     from statehtn.experiments.summary import Summary

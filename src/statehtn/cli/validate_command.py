@@ -14,7 +14,7 @@ from statehtn.hddl.plan_format import read_plan, write_plan
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import Step
 from statehtn.read_file import read_named
-from statehtn.validate import Validation
+from statehtn.validation import Validation
 from statehtn.verify import validate
 
 

@@ -24,7 +24,7 @@ from statehtn.model import (
     Parameter,
     Problem,
 )
-from statehtn.model.cost_law import is_unconditional
+from statehtn.model.cost.ground_cost import is_unconditional
 
 Kind = _relax.FormulaKind
 

@@ -24,11 +24,11 @@ from statehtn.model import (
     GroundProblem,
     Problem,
 )
-from statehtn.model.cost_law import UNIT_COST, CostWarning, block_law, is_unconditional, sum_of_blocks
-from statehtn.model.costs import Arithmetic, Expression, FunctionTerm
+from statehtn.model.cost.blocks import Arithmetic, Expression, FunctionTerm
+from statehtn.model.cost.ground_cost import UNIT_COST, CostWarning, block_law, is_unconditional, sum_of_blocks
+from statehtn.model.cost.unknown import MissingNumber, UnknownCost
 from statehtn.model.problem import Action
 from statehtn.model.status import Status
-from statehtn.model.unknown_cost import MissingNumber, UnknownCost
 
 STOPPED = {
     _relax.StopReason.TimeLimit: Status.TIME_LIMIT,
@@ -197,7 +197,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
     Raises:
         LimitReached: a limit was reached, or Ctrl-C.
         InputError: the cost of a reachable action is no distribution. What is not defined is taken as 0, with a
-            `CostWarning` (see `statehtn.model.unknown_cost`).
+            `CostWarning` (see `statehtn.model.cost.unknown`).
         UnsupportedError: a precondition falls into too many cases.
     """
     with watched(limits):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from statehtn.errors import UsageError
 from statehtn.hddl.writer import expression_text, formula_text
-from statehtn.model.costs import CostBlock
+from statehtn.model.cost.blocks import CostBlock
 from statehtn.model.formula import TRUE
 from statehtn.model.ground import GroundCostPart, GroundMethod, GroundProblem
 from statehtn.model.problem import Problem, TaskNetwork

@@ -22,7 +22,7 @@ from statehtn.interop.conversion import Conversion
 from statehtn.interop.costs import CostParts
 from statehtn.interop.metric import metric_value
 from statehtn.risk import Attitude
-from statehtn.validate import validate
+from statehtn.validation import validate
 
 
 class StateHtnEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanValidatorMixin):

@@ -10,8 +10,8 @@ from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.vocabulary import Scope, Vocabulary
 from statehtn.model import Arithmetic, Expression, FunctionTerm, Number
-from statehtn.model.cost_law import evaluate
-from statehtn.model.costs import PROBABILITY_TOLERANCE
+from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE
+from statehtn.model.cost.ground_cost import evaluate
 
 TOTAL_COST = "total-cost"
 Branches = tuple[tuple[Expression, Expression], ...]

@@ -10,8 +10,8 @@ from statehtn.build import Chance, CostPart, ProblemBuilder
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.interop.names import Names, vocabulary_of
 from statehtn.model import Action, Arithmetic, CostBlock, Expression, Number, Problem
-from statehtn.model.cost_law import is_unconditional
-from statehtn.model.costs import exact
+from statehtn.model.cost.blocks import exact
+from statehtn.model.cost.ground_cost import is_unconditional
 
 CostParts = CostPart | Iterable[CostPart]
 """The cost of an action: one part, or several independent ones that add up."""

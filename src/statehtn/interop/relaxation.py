@@ -18,7 +18,7 @@ from unified_planning.model.metrics import MinimizeActionCosts
 
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.model import GroundAction, GroundCostPart, GroundMethod, GroundProblem, Problem
-from statehtn.model.costs import exact
+from statehtn.model.cost.blocks import exact
 from statehtn.risk import Attitude, AttitudeName, Utility, utility_for
 from statehtn.risk.cost_shifting import shifted_prices
 

@@ -6,7 +6,7 @@ import os
 
 from statehtn.errors import UsageError
 from statehtn.expected import expect, shown
-from statehtn.model.law import CostLaw, is_of_scipy
+from statehtn.model.cost.law import CostLaw, is_of_scipy
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 

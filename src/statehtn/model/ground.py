@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.problem import Fact
 
 

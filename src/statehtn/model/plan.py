@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from statehtn.counted import counted
 from statehtn.errors import UsageError
 from statehtn.expected import expect, items, whole_number
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.law import CostLaw
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -129,12 +129,12 @@ class Plan:
 
         It is a `CostDistribution`, exact, where the actions' costs are lists of outcomes and their sum has not more
         than 20,000 different values; the action's own law where only one of them costs anything; otherwise a
-        `TotalCost` on a grid that knows its error. See `statehtn.model.total_cost`.
+        `TotalCost` on a grid that knows its error. See `statehtn.model.cost.total`.
 
         Raises:
             UsageError: the plan does not know what its steps cost.
         """
-        from statehtn.model.total_cost import total_cost
+        from statehtn.model.cost.total import total_cost
 
         return total_cost(self._known_costs())
 
@@ -148,7 +148,7 @@ class Plan:
         """
         import numpy
 
-        from statehtn.model.cost_sum import sampled_sum
+        from statehtn.model.cost.sum import sampled_sum
 
         if not 1 <= whole_number(runs, "the number of runs") <= MOST_RUNS:
             raise UsageError(f"the number of runs must be from 1 to {MOST_RUNS}, found {runs}")

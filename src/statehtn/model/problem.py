@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from statehtn.model.costs import CostBlock, FunctionValues
+from statehtn.model.cost.blocks import CostBlock, FunctionValues
 from statehtn.model.formula import TRUE, Atom, Formula
 from statehtn.model.types import Parameter, TypeHierarchy
 

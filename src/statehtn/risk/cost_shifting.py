@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.ground import GroundCostPart
-from statehtn.model.law import CostLaw
 from statehtn.risk.utility import Utility
 
 Literals = tuple[tuple[int, bool], ...]

@@ -6,8 +6,8 @@ import itertools
 import math
 from collections.abc import Iterable, Sequence
 
-from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.law import CostLaw
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.utility import DIGITS, Utility
 

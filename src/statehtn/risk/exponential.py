@@ -13,8 +13,8 @@ from decimal import Context, Decimal
 
 from statehtn.errors import UsageError
 from statehtn.expected import number, whole_number
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_law
-from statehtn.model.law import CostLaw
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
 
 DOUBLE_DIGITS = 15

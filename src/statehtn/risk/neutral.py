@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from statehtn.expected import number, whole_number
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_law
-from statehtn.model.law import CostLaw
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
 
 DOUBLE_DIGITS = 17

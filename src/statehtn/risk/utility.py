@@ -9,7 +9,7 @@ from __future__ import annotations
 from enum import IntEnum, StrEnum
 from typing import Literal, Protocol
 
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.law import CostLaw
 
 DIGITS = 10
 """Significant digits of a printed expected utility: enough for every value in the paper's tables."""

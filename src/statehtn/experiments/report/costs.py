@@ -10,8 +10,8 @@ from statehtn.experiments.report.plots import DASHES, Curve, Look, distributions
 from statehtn.experiments.report.results import Outcome
 from statehtn.experiments.report.tables import Cell, Column, Table, number
 from statehtn.experiments.run import Agent
-from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.total_cost import TotalCost, total_cost
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.total import TotalCost, total_cost
 
 SHADES = 3
 """So many colours there are for averse, and for seeking agents."""

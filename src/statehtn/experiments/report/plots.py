@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from statehtn.experiments.report.svg import PLACEHOLDERS, STYLE, inline_svg
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.law import CostLaw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

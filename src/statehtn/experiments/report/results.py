@@ -12,7 +12,7 @@ from typing import Any
 from statehtn.errors import InputError, StateHtnError
 from statehtn.experiments.records import COLUMNS, KEY_COLUMNS, Row
 from statehtn.experiments.run import Agent
-from statehtn.model.costs import CostDistribution
+from statehtn.model.cost.blocks import CostDistribution
 
 Key = tuple[str, ...]
 PHASES = ("parse_seconds", "ground_seconds", "search_seconds")

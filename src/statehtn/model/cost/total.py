@@ -12,9 +12,9 @@ from itertools import accumulate
 from typing import TYPE_CHECKING, overload
 
 from statehtn.errors import InputError
-from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.cost_sum import CostSum, parts_of
-from statehtn.model.law import MOST_DRAWN, PLOT_POINTS, CostLaw
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.law import MOST_DRAWN, PLOT_POINTS, CostLaw
+from statehtn.model.cost.sum import CostSum, parts_of
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -164,7 +164,7 @@ def _on_grid(summands: CostSum, uncertain: Sequence[CostLaw]) -> TotalCost:
     """
     import numpy
 
-    from statehtn.model.scipy_cost import ScipyCost
+    from statehtn.model.cost.scipy_law import ScipyCost
 
     tops = {law: law.quantile(1 - TAIL) if math.isinf(law.most) else law.most for law in uncertain}
     width = math.fsum(tops[law] - law.least for law in uncertain) / (CELLS - 2 * len(uncertain) - 2)

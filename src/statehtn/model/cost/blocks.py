@@ -13,10 +13,10 @@ from numbers import Rational, Real
 from typing import cast
 
 from statehtn.errors import Place, UsageError
-from statehtn.model.cost_distribution import PROBABILITY_TOLERANCE as PROBABILITY_TOLERANCE
-from statehtn.model.cost_distribution import CostDistribution as CostDistribution
+from statehtn.model.cost.distribution import PROBABILITY_TOLERANCE as PROBABILITY_TOLERANCE
+from statehtn.model.cost.distribution import CostDistribution as CostDistribution
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.formula import TRUE, Formula
-from statehtn.model.law import CostLaw
 from statehtn.model.types import Parameter
 
 Amount = float | Fraction | Decimal

@@ -11,8 +11,8 @@ from typing import Protocol
 
 from statehtn.errors import InputError, UsageError
 from statehtn.expected import items, number, shown
-from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.law import CostLaw
 
 
 class Pricing(Protocol):

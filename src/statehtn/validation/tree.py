@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from statehtn.model.plan import Decomposition, Plan
-from statehtn.validate.world import World
+from statehtn.semantics.world import World
 
 
 class PlanTree:

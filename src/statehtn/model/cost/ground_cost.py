@@ -12,13 +12,13 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
 from statehtn.errors import InputError, StateHtnError
-from statehtn.model.cost_distribution import PROBABILITY_TOLERANCE, CostDistribution
-from statehtn.model.cost_sum import CostSum
-from statehtn.model.costs import Arithmetic, CostBlock, Expression, FunctionTerm, FunctionValues, Number
+from statehtn.model.cost.blocks import Arithmetic, CostBlock, Expression, FunctionTerm, FunctionValues, Number
+from statehtn.model.cost.distribution import PROBABILITY_TOLERANCE, CostDistribution
+from statehtn.model.cost.law import CostLaw, is_of_scipy
+from statehtn.model.cost.sum import CostSum
+from statehtn.model.cost.unknown import MissingNumber
 from statehtn.model.formula import TRUE
-from statehtn.model.law import CostLaw, is_of_scipy
 from statehtn.model.problem import Action
-from statehtn.model.unknown_cost import MissingNumber
 
 UNIT_COST = CostDistribution.certain(1.0)
 """What every action costs where the domain states no costs at all."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from statehtn.model.law import PLOT_POINTS, CostLaw
+from statehtn.model.cost.law import PLOT_POINTS, CostLaw
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -31,8 +31,8 @@ class CostSum(CostLaw):
 
     @cached_property
     def total(self) -> CostLaw:
-        """The law of the sum: exact, or on a grid with bounds on its error; see `statehtn.model.total_cost`."""
-        from statehtn.model.total_cost import total_cost
+        """The law of the sum: exact, or on a grid with bounds on its error; see `statehtn.model.cost.total`."""
+        from statehtn.model.cost.total import total_cost
 
         return total_cost(self.parts)
 

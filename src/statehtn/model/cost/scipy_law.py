@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.expected import number
-from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.law import CostLaw, checked_probability, is_of_scipy
-from statehtn.model.scipy_call import scipy_call
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.law import CostLaw, checked_probability, is_of_scipy
+from statehtn.model.cost.scipy_call import scipy_call
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -131,7 +131,7 @@ class ScipyCost(CostLaw):
 
     def excess(self, budget: float) -> float:
         """Return `E[max(C - budget, 0)]`: what is paid above a budget, in the mean over all cases."""
-        from statehtn.model.quadrature import excess
+        from statehtn.model.cost.numerics.quadrature import excess
 
         if self.is_discrete:
             import numpy
@@ -151,13 +151,13 @@ class ScipyCost(CostLaw):
         Raises:
             InputError: the moment generating function is infinite there, or the integral is not accurate enough.
         """
-        from statehtn.model.moment_generating import exponential_mean
+        from statehtn.model.cost.numerics.moment_generating import exponential_mean
 
         return exponential_mean(self, slope)[0]
 
     def exponential_mean_error(self, slope: float) -> float:
         """Return how much `exponential_mean` is off at most, as the quadrature tells; 0 for a closed form."""
-        from statehtn.model.moment_generating import exponential_mean
+        from statehtn.model.cost.numerics.moment_generating import exponential_mean
 
         return exponential_mean(self, slope)[1]
 
@@ -222,7 +222,7 @@ def law_of(distribution: Any) -> CostLaw:
             f"{law} has {most - least + 1:.0f} outcomes, more than {MOST_OUTCOMES}; give a continuous law that is "
             f"close to it, or outcomes or samples"
         )
-    from statehtn.model.moment_generating import CLOSED_FORMS
+    from statehtn.model.cost.numerics.moment_generating import CLOSED_FORMS
 
     if law.is_discrete and family not in CLOSED_FORMS:
         raise UnsupportedError(f"{law} has infinitely many outcomes; give those that matter by CostDistribution.of")

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
 
-    from statehtn.model.scipy_cost import ScipyCost
+    from statehtn.model.cost.scipy_law import ScipyCost
 
     Logarithm = Callable[[NDArray[float64]], NDArray[float64]]
 

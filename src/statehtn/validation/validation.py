@@ -10,17 +10,17 @@ from typing import Any
 from statehtn.collector import without_collector
 from statehtn.counted import counted
 from statehtn.limits import Limits
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_plan, expect_problem, expect_utility
-from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan, Step
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.risk import Utility, plan_expected_cost, plan_risk_cost
-from statehtn.validate.decomposition import match_networks
-from statehtn.validate.execution import execute
-from statehtn.validate.ordering import check_ordering
-from statehtn.validate.tree import PlanTree
-from statehtn.validate.world import World
+from statehtn.semantics.execution import execute
+from statehtn.semantics.world import World
+from statehtn.validation.decomposition import match_networks
+from statehtn.validation.ordering import check_ordering
+from statehtn.validation.tree import PlanTree
 
 _STEP = re.compile(r"step (\d+) \([^()]*\): ")
 

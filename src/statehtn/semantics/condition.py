@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from statehtn.model.formula import And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or, free_variables
 from statehtn.model.problem import Fact
 from statehtn.model.types import Parameter
-from statehtn.validate.formulas import Bindings, conjuncts, is_timeless, predicates, text
-from statehtn.validate.history import History, State
-from statehtn.validate.world import World, substitute
+from statehtn.semantics.formulas import Bindings, conjuncts, is_timeless, predicates, text
+from statehtn.semantics.history import History, State
+from statehtn.semantics.world import World, substitute
 
 Test = Callable[[Bindings, State], bool]
 """Tells whether a formula is true in a state; the bindings cover its free variables."""

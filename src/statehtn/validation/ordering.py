@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from statehtn.model.plan import Plan
-from statehtn.validate.decomposition import MatchedNetwork, Matching
-from statehtn.validate.formulas import predicates, text
-from statehtn.validate.history import History
-from statehtn.validate.tree import PlanTree
-from statehtn.validate.world import World
+from statehtn.semantics.formulas import predicates, text
+from statehtn.semantics.history import History
+from statehtn.semantics.world import World
+from statehtn.validation.decomposition import MatchedNetwork, Matching
+from statehtn.validation.tree import PlanTree
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,16 +8,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from statehtn.model.cost_law import action_law, is_unconditional
+from statehtn.model.cost.ground_cost import action_law, is_unconditional
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.formula import TRUE
-from statehtn.model.law import CostLaw
 from statehtn.model.plan import Plan, Step
 from statehtn.model.problem import Action, Effect, Fact
 from statehtn.model.types import Parameter
-from statehtn.validate.condition import NOWHERE, Condition
-from statehtn.validate.formulas import Bindings
-from statehtn.validate.history import History, State
-from statehtn.validate.world import World, substitute
+from statehtn.semantics.condition import NOWHERE, Condition
+from statehtn.semantics.formulas import Bindings
+from statehtn.semantics.history import History, State
+from statehtn.semantics.world import World, substitute
 
 DueParts = tuple[tuple[int, tuple[str, ...]], ...]
 """The conditional parts of a cost that are due: (index of the block, objects of its variables)."""

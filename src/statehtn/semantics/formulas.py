@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from statehtn.model.formula import And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or
-from statehtn.validate.world import substitute
+from statehtn.semantics.world import substitute
 
 Bindings = Mapping[str, str]
 

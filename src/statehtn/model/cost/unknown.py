@@ -11,9 +11,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from statehtn.errors import InputError
-from statehtn.model.cost_distribution import CostDistribution
-from statehtn.model.cost_sum import parts_of
-from statehtn.model.law import CostLaw
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.law import CostLaw
+from statehtn.model.cost.sum import parts_of
 
 
 class MissingNumber(InputError):

@@ -15,10 +15,10 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError, UsageError
-from statehtn.model.scipy_call import scipy_call
+from statehtn.model.cost.scipy_call import scipy_call
 
 if TYPE_CHECKING:
-    from statehtn.model.scipy_cost import ScipyCost
+    from statehtn.model.cost.scipy_law import ScipyCost
 
 Shapes = Mapping[str, float]
 ClosedForm = Callable[[Shapes, float], "float | None"]
@@ -143,7 +143,7 @@ def _closed_form(law: ScipyCost, slope: float) -> tuple[float, float] | None:
 
 def _integrated(law: ScipyCost, slope: float) -> tuple[float, float]:
     """Integrate over the standard variable: near `loc` floats are coarse, near 0 they are not."""
-    from statehtn.model.quadrature import has_infinite_moment, log_moment
+    from statehtn.model.cost.numerics.quadrature import has_infinite_moment, log_moment
 
     standard, standard_slope = law.standard, slope * law.scale
     with scipy_call(law.title):

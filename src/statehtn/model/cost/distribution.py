@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError, UsageError
 from statehtn.expected import expect, number, shown, whole_number
-from statehtn.model.exponential_mean import exponential_mean_of
-from statehtn.model.law import PLOT_POINTS, CostLaw, checked_probability
+from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_probability
+from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
 
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.random import Generator
     from numpy.typing import NDArray
 
-    from statehtn.model.sampled import SampledCost
+    from statehtn.model.cost.sampled import SampledCost
 
 PROBABILITY_TOLERANCE = 1e-9
 ROUNDING = 1e-12  # of sums of probabilities, which are compared with a level that was asked for
@@ -71,7 +71,7 @@ class CostDistribution(CostLaw):
         Raises:
             InputError: there are no data, one is no finite number of at least 0, or one is above `most`.
         """
-        from statehtn.model.sampled import sampled_cost
+        from statehtn.model.cost.sampled import sampled_cost
 
         return sampled_cost(data, most)
 
@@ -92,7 +92,7 @@ class CostDistribution(CostLaw):
         Raises:
             InputError: a count or a weight is negative, or all are 0; a cost is negative or not finite.
         """
-        from statehtn.model.sampled import posterior_predictive
+        from statehtn.model.cost.sampled import posterior_predictive
 
         return posterior_predictive(counts, prior)
 
@@ -107,7 +107,7 @@ class CostDistribution(CostLaw):
             UnsupportedError: it is discrete with infinitely many outcomes, and not Poisson, geometric or negative
                 binomial.
         """
-        from statehtn.model.scipy_cost import law_of
+        from statehtn.model.cost.scipy_law import law_of
 
         return law_of(distribution)
 

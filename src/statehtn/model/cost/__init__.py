@@ -1,0 +1,1 @@
+"""Uncertain costs: their laws, how a domain states them, and what a ground action costs."""

@@ -1,0 +1,1 @@
+"""Exponential means, computed: of lists of outcomes, by closed forms, and by quadrature."""
