@@ -84,12 +84,12 @@ def replace(
 
 
 def canonical(tasks: tuple[int, ...], ordering: Ordering) -> tuple[tuple[int, ...], Ordering]:
-    """The same network in an order that depends little on its history."""
+    """The same network in an order that depends little on its history; tasks stand behind those before them."""
     neighbours = [
         (sorted(tasks[i] for i, j in ordering if j == k), sorted(tasks[j] for i, j in ordering if i == k))
         for k in range(len(tasks))
     ]
-    order = sorted(range(len(tasks)), key=lambda k: (tasks[k], neighbours[k]))
+    order = sorted(range(len(tasks)), key=lambda k: (len(neighbours[k][0]), tasks[k], neighbours[k]))
     number = {old: new for new, old in enumerate(order)}
     return tuple(tasks[old] for old in order), frozenset((number[i], number[j]) for i, j in ordering)
 

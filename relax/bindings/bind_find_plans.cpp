@@ -1,5 +1,6 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -15,15 +16,19 @@
 #include "bindings.hpp"
 #include "checked_prices.hpp"
 #include "python_limits.hpp"
+#include "relax/canonical_order.hpp"
 #include "relax/cost_shifting.hpp"
 #include "relax/search.hpp"
 #include "relax/state.hpp"
 #include "relax/tdg_bound.hpp"
+#include "relax/totally_ordered_networks.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
 
 namespace {
+
+using Ordering = std::vector<std::pair<std::size_t, std::size_t>>;
 
 // A heuristic on its own, for states and networks of the caller's choice.
 class Evaluator {
@@ -34,8 +39,11 @@ public:
                                    limits_)),
           heuristic_(relax::make_heuristic(kind, problem, prices, limits_)) {}
 
+    // `ordering`: pairs of places in `tasks`, transitively closed; none where nothing is known of the order. The
+    // heuristic sees the order as in a search: in a totally ordered problem, as that of the tasks as they stand.
     std::optional<relax::Cost> evaluate(const std::vector<relax::FactId>& facts,
-                                        const std::vector<relax::TaskId>& tasks) {
+                                        const std::vector<relax::TaskId>& tasks,
+                                        const std::optional<Ordering>& ordering) {
         relax::StateBits state(relax::StateTransition(problem_).word_count(), 0);
         for (const relax::FactId fact : facts) {
             if (fact >= problem_.fact_count()) {
@@ -50,7 +58,22 @@ public:
             }
             bound = relax::add_bounds(bound, bounds_[task]);
         }
-        return heuristic_->evaluate({state, tasks, bound});
+        if (!ordering) {
+            return heuristic_->evaluate({state, tasks, bound});
+        }
+        relax::OrderedTasks network;
+        network.reset(tasks.size());
+        for (const auto& [earlier, later] : *ordering) {
+            if (earlier >= tasks.size() || later >= tasks.size()) {
+                throw std::out_of_range("no such place: " + std::to_string(std::max(earlier, later)));
+            }
+            network.put_before(earlier, later);
+        }
+        const bool stands_in_order =
+            relax::TotallyOrderedNetworks::fits(problem_) &&
+            ordering->size() == tasks.size() * (tasks.size() - 1) / 2 &&
+            std::ranges::all_of(*ordering, [](const auto& pair) { return pair.first < pair.second; });
+        return heuristic_->evaluate({state, tasks, bound, stands_in_order, network.predecessors});
     }
 
     std::size_t model_bytes() const { return heuristic_->model_bytes(); }
@@ -186,7 +209,7 @@ void bind_find_plans(nb::module_& module) {
     nb::class_<Evaluator>(module, "Evaluator")
         .def(nb::init<const relax::GroundProblem&, const relax::Prices&, relax::HeuristicKind>(), "problem"_a,
              "prices"_a, "kind"_a, nb::keep_alive<1, 2>())
-        .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a)
+        .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a, "ordering"_a = nb::none())
         .def_prop_ro("model_bytes", &Evaluator::model_bytes);
 
     module.def("find_plans", &find_plans, "problem"_a, "prices"_a, "options"_a, "seconds"_a = nb::none(),

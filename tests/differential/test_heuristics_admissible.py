@@ -7,6 +7,7 @@ import math
 
 import pytest
 from hypothesis import assume, given
+from hypothesis import strategies as st
 
 from statehtn.core.grounding import ground
 from statehtn.core.heuristics import HEURISTICS, HeuristicEvaluator
@@ -30,13 +31,17 @@ def estimate(value: float | None) -> float:
 
 
 @pytest.mark.parametrize("heuristic", ADMISSIBLE)
-@given(problem=problems(), utility=utilities())
-def test_never_above_the_remaining_cost(heuristic: str, problem: Problem, utility: Utility) -> None:
-    grounding = ground(problem)
+@pytest.mark.parametrize("orders", [("total",), ("none", "partial")])
+@given(data=st.data(), utility=utilities())
+def test_never_above_the_remaining_cost(
+    heuristic: str, orders: tuple[str, ...], data: st.DataObject, utility: Utility
+) -> None:
+    grounding = ground(data.draw(problems(orders)))
     assume(grounding.to_model().methods)
     h = HeuristicEvaluator(grounding, utility, heuristic)
     for node in explore(grounding.to_model(), utility):
-        assert estimate(h(node.state, node.tasks)) <= node.remaining_cost * (1 + SLACK)
+        for ordering in (node.ordering, None):
+            assert estimate(h(node.state, node.tasks, ordering)) <= node.remaining_cost * (1 + SLACK)
 
 
 @pytest.mark.parametrize("heuristic", OTHERS)
@@ -46,7 +51,7 @@ def test_dead_ends_are_dead_ends(heuristic: str, problem: Problem, utility: Util
     assume(grounding.to_model().methods)
     h = HeuristicEvaluator(grounding, utility, heuristic)
     for node in explore(grounding.to_model(), utility):
-        assert h(node.state, node.tasks) is not None or node.remaining_cost == math.inf
+        assert h(node.state, node.tasks, node.ordering) is not None or node.remaining_cost == math.inf
 
 
 @pytest.mark.parametrize("heuristic", CONSISTENT)
@@ -57,8 +62,8 @@ def test_f_never_falls(heuristic: str, problem: Problem, utility: Utility) -> No
     h = HeuristicEvaluator(grounding, utility, heuristic)
     for node in explore(grounding.to_model(), utility, most_nodes=60):
         for cost, successor in node.steps:
-            bound = cost + estimate(h(successor.state, successor.tasks))
-            assert estimate(h(node.state, node.tasks)) <= bound * (1 + SLACK) + SLACK
+            bound = cost + estimate(h(successor.state, successor.tasks, successor.ordering))
+            assert estimate(h(node.state, node.tasks, node.ordering)) <= bound * (1 + SLACK) + SLACK
 
 
 @given(problem=problems(), utility=utilities())
@@ -69,7 +74,7 @@ def test_hmax_is_that_of_the_reference(problem: Problem, utility: Utility) -> No
     h = HeuristicEvaluator(grounding, utility, "hmax")
     for node in explore(model, utility, most_nodes=40):
         expected = compute_rc_ad_heur(node.state, node.tasks, model, utility, hmax)
-        assert estimate(h(node.state, node.tasks)) == close_to(expected)
+        assert estimate(h(node.state, node.tasks, node.ordering)) == close_to(expected)
 
 
 @given(problem=problems(), utility=utilities())
@@ -79,7 +84,7 @@ def test_lmcut_lies_between_hmax_and_the_relaxed_optimum(problem: Problem, utili
     assume(model.methods)
     h = HeuristicEvaluator(grounding, utility, "lmcut")
     for node in explore(model, utility, most_nodes=15):
-        value = estimate(h(node.state, node.tasks))
+        value = estimate(h(node.state, node.tasks, node.ordering))
         # hmax pays for each effect of an action that needs another one of it, a cut only once for the action.
         if all(len(action.effects) <= 1 for action in model.actions):
             assert value >= compute_rc_ad_heur(node.state, node.tasks, model, utility, hmax) * (1 - SLACK)
@@ -113,7 +118,7 @@ def test_tdg_is_the_least_cost_of_a_decomposition(problem: Problem, utility: Uti
     least = decomposition_costs(model, utility)
     h = HeuristicEvaluator(grounding, utility, "tdg")
     for node in explore(model, utility, most_nodes=40):
-        assert estimate(h(node.state, node.tasks)) == close_to(sum(least[task] for task in node.tasks))
+        assert estimate(h(node.state, node.tasks, node.ordering)) == close_to(sum(least[task] for task in node.tasks))
 
 
 def decomposition_costs(problem: GroundProblem, utility: Utility) -> list[float]:

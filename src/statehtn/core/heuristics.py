@@ -122,12 +122,16 @@ class HeuristicEvaluator:
         """The size of the relaxed model that an evaluation reads at most; 0 for a heuristic without one."""
         return self._evaluator.model_bytes
 
-    def __call__(self, state: Iterable[int], tasks: Iterable[int]) -> float | None:
+    def __call__(
+        self, state: Iterable[int], tasks: Iterable[int], ordering: Iterable[tuple[int, int]] | None = None
+    ) -> float | None:
         """Estimate the cost still to come, rounded down; None for a dead end.
 
         Args:
             state: the facts that hold, numbered as in `Grounding.to_model()`.
             tasks: the tasks of the network, with repetitions, numbered likewise.
+            ordering: pairs of places in `tasks`, the earlier one first, transitively closed; None where the order is
+                not known. If the problem is totally ordered, the tasks should stand in their order: as in a search.
         """
-        units = self._evaluator.evaluate(list(state), list(tasks))
+        units = self._evaluator.evaluate(list(state), list(tasks), None if ordering is None else list(ordering))
         return None if units is None else self._scale.cost(units)
