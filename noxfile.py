@@ -98,7 +98,9 @@ def tidy(session: nox.Session) -> None:
     install(session, "build", "lint")
     with session.chdir("relax"):
         session.run("cmake", "--preset", "dev", silent=True)
-    sources = sorted(str(path) for path in Path("relax/src").glob("*.cpp"))
+    sources = sorted(
+        str(path) for path in Path("relax").glob("*/*.cpp") if path.parent.name not in ("bindings", "tests")
+    )
     session.run("clang-tidy", "--quiet", "-p", "build/dev", *sources)
 
 

@@ -16,12 +16,12 @@
 #include "bindings.hpp"
 #include "checked_prices.hpp"
 #include "python_limits.hpp"
-#include "relax/canonical_order.hpp"
-#include "relax/cost_shifting.hpp"
-#include "relax/search.hpp"
-#include "relax/state.hpp"
-#include "relax/tdg_bound.hpp"
-#include "relax/totally_ordered_networks.hpp"
+#include "relax/analysis/cost_shifting.hpp"
+#include "relax/analysis/tdg_bound.hpp"
+#include "relax/networks/ordered_tasks.hpp"
+#include "relax/networks/totally_ordered_networks.hpp"
+#include "relax/problem/state.hpp"
+#include "relax/search/search.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

@@ -14,10 +14,10 @@
 
 #include "bindings.hpp"
 #include "python_limits.hpp"
-#include "relax/ground_problem.hpp"
-#include "relax/grounder.hpp"
-#include "relax/mutexes.hpp"
-#include "relax/totally_ordered_networks.hpp"
+#include "relax/analysis/mutexes.hpp"
+#include "relax/grounding/grounder.hpp"
+#include "relax/networks/totally_ordered_networks.hpp"
+#include "relax/problem/ground_problem.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "relax/lifted_problem.hpp"
+#include "relax/problem/lifted_problem.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

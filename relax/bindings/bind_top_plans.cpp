@@ -11,7 +11,7 @@
 #include "bindings.hpp"
 #include "checked_prices.hpp"
 #include "python_limits.hpp"
-#include "relax/top_plans.hpp"
+#include "relax/search/top_plans.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

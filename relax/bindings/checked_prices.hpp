@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "relax/ground_problem.hpp"
-#include "relax/prices.hpp"
+#include "relax/analysis/prices.hpp"
+#include "relax/problem/ground_problem.hpp"
 
 // Return the prices if they are of this problem; throw otherwise.
 inline const relax::Prices& checked(const relax::GroundProblem& problem, const relax::Prices& prices) {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "relax/limits.hpp"
+#include "relax/base/limits.hpp"
 
 // Limits for a computation that runs without the GIL: `seconds` from now, `bytes` of resident memory. Now and then the
 // GIL is taken, signals are handled and `watch` is called; a KeyboardInterrupt ends the computation with its result so

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "relax/grounder.hpp"
-#include "relax/search.hpp"
+#include "relax/grounding/grounder.hpp"
+#include "relax/search/search.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "relax/macro_actions.hpp"
-#include "relax/mutexes.hpp"
-#include "relax/state.hpp"
+#include "relax/analysis/mutexes.hpp"
+#include "relax/networks/macro_actions.hpp"
+#include "relax/problem/state.hpp"
 
 namespace {
 

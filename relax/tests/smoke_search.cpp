@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "relax/search.hpp"
-#include "relax/top_plans.hpp"
+#include "relax/search/search.hpp"
+#include "relax/search/top_plans.hpp"
 
 namespace {
 

@@ -1,0 +1,80 @@
+#ifndef RELAX_ANALYSIS_TASK_PROFILES_HPP
+#define RELAX_ANALYSIS_TASK_PROFILES_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/problem/ground_problem.hpp"
+
+namespace relax {
+
+// A fact or its negation: 2 * fact, plus 1 for the negation.
+using Literal = std::uint32_t;
+
+constexpr Literal negation(Literal literal) { return literal ^ 1U; }
+
+// A set of literals, as bits.
+class Literals {
+public:
+    explicit Literals(std::size_t fact_count = 0) : words_((2 * fact_count + 63) / 64, 0) {}
+
+    bool contains(Literal literal) const { return (words_[literal / 64] >> (literal % 64) & 1U) != 0; }
+    void insert(Literal literal) { words_[literal / 64] |= std::uint64_t{1} << (literal % 64); }
+    void erase(Literal literal) { words_[literal / 64] &= ~(std::uint64_t{1} << (literal % 64)); }
+    void clear() { std::ranges::fill(words_, 0); }
+    void insert_all(const Literals& others) {
+        for (std::size_t word = 0; word < words_.size(); ++word) {
+            words_[word] |= others.words_[word];
+        }
+    }
+
+private:
+    std::vector<std::uint64_t> words_;
+};
+
+// What executing a task may have to do with the state, whichever of its decompositions is chosen.
+struct TaskProfile {
+    // What some action reads: its preconditions, and the conditions of its effects and of its cost, each with its
+    // negation.
+    Literals reads;
+    // What some action may make true.
+    Literals makes;
+    // What the action makes false whatever the state is; nothing for a compound task.
+    Literals undoes;
+    // For an action: its preconditions, and the same as `reads` and `makes`.
+    std::vector<Literal> preconditions;
+    std::vector<Literal> read_list;
+    std::vector<Literal> made_list;
+
+    static TaskProfile empty(const GroundProblem& problem) {
+        const Literals none(problem.fact_count());
+        return {none, none, none, {}, {}, {}};
+    }
+};
+
+// The profiles of tasks, each made when it is first asked for.
+class TaskProfiles {
+public:
+    TaskProfiles(const GroundProblem& problem, Limits& limits)
+        : problem_(problem), limits_(limits), profiles_(problem.task_count()) {}
+
+    // Throws Stopped.
+    const TaskProfile& operator[](TaskId task);
+
+private:
+    TaskProfile of_action(ActionId action) const;
+    TaskProfile of_compound(TaskId task);
+
+    const GroundProblem& problem_;
+    Limits& limits_;
+    std::vector<std::unique_ptr<const TaskProfile>> profiles_;  // by TaskId
+};
+
+}  // namespace relax
+
+#endif

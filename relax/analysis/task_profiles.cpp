@@ -1,0 +1,93 @@
+#include "relax/analysis/task_profiles.hpp"
+
+#include <utility>
+
+namespace relax {
+
+const TaskProfile& TaskProfiles::operator[](TaskId task) {
+    if (!profiles_[task]) {
+        TaskProfile profile = problem_.is_primitive(task) ? of_action(task) : of_compound(task);
+        profiles_[task] = std::make_unique<const TaskProfile>(std::move(profile));
+    }
+    return *profiles_[task];
+}
+
+TaskProfile TaskProfiles::of_action(ActionId action) const {
+    TaskProfile result = TaskProfile::empty(problem_);
+    for (const FactId fact : problem_.preconditions[action]) {
+        result.preconditions.push_back(2 * fact);
+    }
+    for (const FactId fact : problem_.negative_preconditions[action]) {
+        result.preconditions.push_back(2 * fact + 1);
+    }
+    result.read_list = result.preconditions;
+    const auto read_either_way = [&result](std::span<const FactId> facts) {
+        for (const FactId fact : facts) {
+            result.read_list.push_back(2 * fact);
+            result.read_list.push_back(2 * fact + 1);
+        }
+    };
+    for (const CostPartId part : problem_.cost_parts(action)) {
+        for (const std::uint32_t alternative : problem_.cost_alternatives(part)) {
+            read_either_way(problem_.cost_conditions[alternative]);
+            read_either_way(problem_.cost_negative_conditions[alternative]);
+        }
+    }
+    for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {
+        read_either_way(problem_.effect_conditions[effect]);
+        read_either_way(problem_.effect_negative_conditions[effect]);
+        const bool is_certain =
+            problem_.effect_conditions[effect].empty() && problem_.effect_negative_conditions[effect].empty();
+        const auto make = [&](Literal literal) {
+            result.made_list.push_back(literal);
+            if (is_certain) {
+                result.undoes.insert(negation(literal));
+            }
+        };
+        for (const FactId fact : problem_.effect_adds[effect]) {
+            make(2 * fact);
+        }
+        for (const FactId fact : problem_.effect_deletes[effect]) {
+            make(2 * fact + 1);
+        }
+    }
+    for (const Literal literal : result.read_list) {
+        result.reads.insert(literal);
+    }
+    for (const Literal literal : result.made_list) {
+        result.makes.insert(literal);
+        if (literal % 2 == 0) {
+            result.undoes.erase(literal);  // adding wins over deleting
+        }
+    }
+    return result;
+}
+
+TaskProfile TaskProfiles::of_compound(TaskId task) {
+    TaskProfile result = TaskProfile::empty(problem_);
+    std::vector<bool> is_seen(problem_.task_count(), false);
+    std::vector<TaskId> pending{task};
+    is_seen[task] = true;
+    while (!pending.empty()) {
+        limits_.stop_if_reached();
+        const TaskId next = pending.back();
+        pending.pop_back();
+        if (problem_.is_primitive(next) || profiles_[next]) {
+            const TaskProfile& known = (*this)[next];
+            result.reads.insert_all(known.reads);
+            result.makes.insert_all(known.makes);
+            continue;
+        }
+        for (const MethodId method : problem_.methods_of(next)) {
+            for (const TaskId subtask : problem_.method_subtasks[method]) {
+                if (!is_seen[subtask]) {
+                    is_seen[subtask] = true;
+                    pending.push_back(subtask);
+                }
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace relax

@@ -1,0 +1,26 @@
+#ifndef RELAX_BASE_COST_HPP
+#define RELAX_BASE_COST_HPP
+
+#include "relax/base/ids.hpp"
+
+namespace relax {
+
+// What has no end at all: a task without a finite decomposition, a dead end.
+inline constexpr Cost kNoDecomposition = Cost{1} << 62;
+
+// Sums of costs that are finite go no further than this: it stands for every larger one. Searches leave out what costs
+// so much, and say so by `SearchStatus::GaveUp` where that may have been the only plan.
+inline constexpr Cost kMostCost = kNoDecomposition - 1;
+
+// The sum of two costs, each at most `kNoDecomposition`. It is monotone in both, so that a bound stays a bound.
+inline Cost add_bounds(Cost left, Cost right) {
+    const Cost sum = left + right;
+    if (sum < kMostCost) {
+        return sum;
+    }
+    return left >= kNoDecomposition || right >= kNoDecomposition ? kNoDecomposition : kMostCost;
+}
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,206 @@
+#include <algorithm>
+
+#include "assembly.hpp"
+
+namespace relax::grounding {
+
+namespace {
+
+bool contains(const Conjunction& sorted, Literal literal) { return std::ranges::binary_search(sorted, literal); }
+
+// The literals of a condition that are not always true.
+Conjunction without_constants(const Remains& remains, std::span<const Literal> condition) {
+    Conjunction rest;
+    for (const Literal literal : condition) {
+        if (remains.is_literal_reached[negation(literal)]) {
+            rest.push_back(literal);
+        }
+    }
+    return rest;
+}
+
+// What is left of a condition where the action's precondition holds; nothing if
+// it cannot hold then.
+std::optional<Conjunction> condition_within(const Remains& remains, std::span<const Literal> condition,
+                                            const Conjunction& precondition) {
+    Conjunction rest;
+    for (const Literal literal : condition) {
+        if (!remains.is_literal_reached[literal] || contains(precondition, negation(literal))) {
+            return std::nullopt;
+        }
+        if (remains.is_literal_reached[negation(literal)] && !contains(precondition, literal)) {
+            rest.push_back(literal);
+        }
+    }
+    return rest;
+}
+
+// Drop changes that change nothing.
+void tidy(Effects& effects, const Conjunction& precondition) {
+    const auto always = effects.find({});
+    const Conjunction unconditional = always == effects.end() ? Conjunction{} : always->second;
+    std::vector<Literal> made;
+    for (const auto& [condition, changes] : effects) {
+        made.insert(made.end(), changes.begin(), changes.end());
+    }
+    std::ranges::sort(made);
+    const auto is_void = [&](Literal change, bool is_conditional) {
+        const Literal added = 2 * fact_of(change);
+        if (is_negated(change) && (contains(precondition, change) || std::ranges::count(unconditional, added) > 0)) {
+            return true;
+        }
+        if (!is_negated(change) && contains(precondition, change) && !contains(made, negation(change))) {
+            return true;
+        }
+        return is_conditional && std::ranges::count(unconditional, change) > 0;
+    };
+    for (auto& [condition, changes] : effects) {
+        std::ranges::sort(changes);
+        const auto repeated = std::ranges::unique(changes);
+        changes.erase(repeated.begin(), repeated.end());
+        const Conjunction before = changes;
+        std::erase_if(changes, [&](Literal change) {
+            return is_void(change, !condition.empty()) || (is_negated(change) && contains(before, negation(change)));
+        });
+    }
+    std::erase_if(effects, [](const auto& effect) { return effect.second.empty(); });
+}
+
+Effects effects_of(const Remains& remains, CaseId number, const Conjunction& precondition) {
+    const NodeId owner = remains.cases.owner[number];
+    Effects effects;
+    for (std::uint32_t effect = remains.cases.effect_begin[owner]; effect < remains.cases.effect_begin[owner + 1];
+         ++effect) {
+        const auto condition = condition_within(remains, remains.cases.effect_condition[effect], precondition);
+        if (remains.cases.is_effect_alive[effect] && condition) {
+            Conjunction& changes = effects[*condition];
+            std::ranges::copy(remains.cases.effect_changes[effect], std::back_inserter(changes));
+        }
+    }
+    tidy(effects, precondition);
+    return effects;
+}
+
+Costs costs_of(const Remains& remains, CaseId number, const Conjunction& precondition) {
+    const Cases& cases = remains.cases;
+    const NodeId owner = cases.owner[number];
+    Costs costs;
+    for (std::uint32_t part = cases.cost_begin[owner]; part < cases.cost_begin[owner + 1]; ++part) {
+        Disjunction condition;
+        for (std::uint32_t alternative = cases.cost_alternative_begin[part];
+             alternative < cases.cost_alternative_begin[part + 1]; ++alternative) {
+            if (auto rest = condition_within(remains, cases.cost_condition[alternative], precondition)) {
+                condition.push_back(*std::move(rest));
+            }
+        }
+        drop_subsumed(condition);
+        if (!condition.empty()) {
+            std::ranges::copy(cases.cost_blocks[part], std::back_inserter(costs[condition]));
+        }
+    }
+    return costs;
+}
+
+}  // namespace
+
+std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action) {
+    constexpr std::size_t kMostComparedCases = 300;
+    std::vector<RemainingCase> candidates;
+    for (CaseId number = remains.cases.begin[action]; number < remains.cases.begin[action + 1]; ++number) {
+        if (remains.cases.is_alive[number]) {
+            candidates.push_back({number, without_constants(remains, remains.cases.condition[number]), {}, {}});
+        }
+    }
+    std::ranges::stable_sort(candidates, {}, [](const RemainingCase& one) { return one.condition.size(); });
+    std::vector<RemainingCase> kept;
+    for (RemainingCase& candidate : candidates) {
+        const auto covers = [&](const RemainingCase& other) {
+            return std::ranges::includes(candidate.condition, other.condition);
+        };
+        if (kept.size() > kMostComparedCases || std::ranges::none_of(kept, covers)) {
+            candidate.effects = effects_of(remains, candidate.number, candidate.condition);
+            candidate.costs = costs_of(remains, candidate.number, candidate.condition);
+            kept.push_back(std::move(candidate));
+        }
+    }
+    return kept;
+}
+
+std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is_written) {
+    std::vector<bool> is_read(remains.is_initially_true.size(), false);
+    const auto read = [&](std::span<const Literal> condition) {
+        bool is_new = false;
+        for (const Literal literal : condition) {
+            is_new = is_new || !is_read[fact_of(literal)];
+            is_read[fact_of(literal)] = true;
+        }
+        return is_new;
+    };
+    Rows<Literal> conditions;  // of effects that have one
+    Rows<Literal> changes_under;
+    for (NodeId node = 0; node < is_written.size(); ++node) {
+        if (!is_written[node]) {
+            continue;
+        }
+        remains.limits.stop_if_reached();
+        for (const RemainingCase& one : remaining_cases(remains, node)) {
+            read(one.condition);
+            for (const auto& [condition, blocks] : one.costs) {
+                std::ranges::for_each(condition, read);
+            }
+            for (const auto& [condition, changes] : one.effects) {
+                if (!condition.empty()) {
+                    conditions.add_row(condition);
+                    changes_under.add_row(changes);
+                }
+            }
+        }
+    }
+    // Effects on facts that nothing reads must not keep others alive.
+    const auto matters = [&](Literal change) { return is_read[fact_of(change)]; };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t effect = 0; effect < conditions.size(); ++effect) {
+            remains.limits.stop_if_reached();
+            changed = (std::ranges::any_of(changes_under[effect], matters) && read(conditions[effect])) || changed;
+        }
+    }
+    return is_read;
+}
+
+void write_action(const RemainingCase& one, const std::vector<std::optional<FactId>>& number_of_fact,
+                  GroundProblem& problem) {
+    const auto number = [&](Literal literal) { return number_of_fact[fact_of(literal)]; };
+    const auto write = [&](const Conjunction& literals, Rows<FactId>& positive, Rows<FactId>& negative) {
+        for (const Literal literal : literals) {
+            if (const auto fact = number(literal)) {
+                (is_negated(literal) ? negative : positive).push(*fact);
+            }
+        }
+        positive.finish_row();
+        negative.finish_row();
+    };
+    write(one.condition, problem.preconditions, problem.negative_preconditions);
+    for (const auto& [condition, changes] : one.effects) {
+        if (std::ranges::any_of(changes, [&](Literal change) { return number(change).has_value(); })) {
+            write(condition, problem.effect_conditions, problem.effect_negative_conditions);
+            write(changes, problem.effect_adds, problem.effect_deletes);
+        }
+    }
+    problem.effect_begin.push_back(static_cast<EffectId>(problem.effect_adds.size()));
+    for (const auto& [condition, blocks] : one.costs) {
+        if (is_true(condition)) {
+            std::ranges::for_each(blocks, [&](std::uint32_t entry) { problem.action_cost_blocks.push(entry); });
+            continue;
+        }
+        problem.cost_part_blocks.add_row(blocks);
+        for (const Conjunction& alternative : condition) {
+            write(alternative, problem.cost_conditions, problem.cost_negative_conditions);
+        }
+        problem.cost_alternative_begin.push_back(static_cast<std::uint32_t>(problem.cost_conditions.size()));
+    }
+    problem.action_cost_blocks.finish_row();
+    problem.cost_part_begin.push_back(static_cast<CostPartId>(problem.cost_part_count()));
+}
+
+}  // namespace relax::grounding

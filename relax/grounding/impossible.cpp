@@ -1,0 +1,227 @@
+#include "impossible.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <utility>
+#include <vector>
+
+#include "relax/analysis/mutexes.hpp"
+
+namespace relax::grounding {
+
+namespace {
+
+// Which tasks and methods are of use.
+class Living {
+public:
+    Living(const GroundProblem& problem, const Mutexes& mutexes, Limits& limits)
+        : problem_(problem), limits_(limits), is_task_alive_(problem.task_count(), false) {
+        find_decomposable(mutexes);
+        find_needed();
+    }
+
+    bool is_alive(TaskId task) const { return is_task_alive_[task]; }
+    bool is_method_alive(MethodId method) const {
+        return is_alive(problem_.method_task[method]) &&
+               std::ranges::all_of(problem_.method_subtasks[method], [this](TaskId task) { return is_alive(task); });
+    }
+
+private:
+    // Bottom-up, by counting the subtasks of each method that are not yet known to be possible.
+    void find_decomposable(const Mutexes& mutexes) {
+        std::vector<std::uint32_t> users(problem_.task_count(), 0);
+        for (MethodId method = 0; method < problem_.method_count(); ++method) {
+            for (const TaskId subtask : problem_.method_subtasks[method]) {
+                ++users[subtask];
+            }
+        }
+        const auto methods_with = Rows<MethodId>::filled(users, [&](auto put) {
+            for (MethodId method = 0; method < problem_.method_count(); ++method) {
+                for (const TaskId subtask : problem_.method_subtasks[method]) {
+                    put(subtask, method);
+                }
+            }
+        });
+        std::vector<std::size_t> missing;
+        for (MethodId method = 0; method < problem_.method_count(); ++method) {
+            limits_.stop_if_reached();
+            missing.push_back(problem_.method_subtasks[method].size());
+            if (missing.back() == 0) {
+                wake(problem_.method_task[method]);
+            }
+        }
+        for (ActionId action = 0; action < problem_.action_count(); ++action) {
+            if (mutexes.is_possible(action)) {
+                wake(action);
+            }
+        }
+        while (!pending_.empty()) {
+            limits_.stop_if_reached();
+            const TaskId task = pending_.back();
+            pending_.pop_back();
+            for (const MethodId method : methods_with[task]) {
+                if (--missing[method] == 0) {
+                    wake(problem_.method_task[method]);
+                }
+            }
+        }
+    }
+
+    // Top-down, from the initial task through methods of which all subtasks are possible.
+    void find_needed() {
+        const std::vector<bool> is_possible = is_task_alive_;
+        is_task_alive_.assign(problem_.task_count(), false);
+        if (is_possible[problem_.initial_task]) {
+            wake(problem_.initial_task);
+        }
+        while (!pending_.empty()) {
+            limits_.stop_if_reached();
+            const TaskId task = pending_.back();
+            pending_.pop_back();
+            if (problem_.is_primitive(task)) {
+                continue;
+            }
+            for (const MethodId method : problem_.methods_of(task)) {
+                const auto subtasks = problem_.method_subtasks[method];
+                if (std::ranges::all_of(subtasks, [&](TaskId subtask) { return is_possible[subtask]; })) {
+                    std::ranges::for_each(subtasks, [this](TaskId subtask) { wake(subtask); });
+                }
+            }
+        }
+    }
+
+    void wake(TaskId task) {
+        if (!is_task_alive_[task]) {
+            is_task_alive_[task] = true;
+            pending_.push_back(task);
+        }
+    }
+
+    const GroundProblem& problem_;
+    Limits& limits_;
+    std::vector<bool> is_task_alive_;
+    std::vector<TaskId> pending_;
+};
+
+// A copy of a ground problem with what lives. Facts keep their numbers.
+class Copy {
+public:
+    Copy(const GroundProblem& old, const Living& living, Limits& limits)
+        : old_(old), living_(living), limits_(limits), number_of_task_(old.task_count()) {}
+
+    GroundProblem run() {
+        copy_.fact_predicate = old_.fact_predicate;
+        copy_.fact_arguments = old_.fact_arguments;
+        copy_.initial_state = old_.initial_state;
+        copy_.mutexes = old_.mutexes;
+        copy_actions();
+        copy_compounds();
+        copy_methods();
+        copy_.initial_task = number_of_task_[old_.initial_task];
+        return std::move(copy_);
+    }
+
+private:
+    void copy_actions() {
+        copy_.effect_begin.push_back(0);
+        copy_.cost_part_begin.push_back(0);
+        copy_.cost_alternative_begin.push_back(0);
+        for (ActionId action = 0; action < old_.action_count(); ++action) {
+            limits_.stop_if_reached();
+            if (!living_.is_alive(action)) {
+                continue;
+            }
+            number_of_task_[action] = static_cast<TaskId>(copy_.action_count());
+            copy_.preconditions.add_row(old_.preconditions[action]);
+            copy_.negative_preconditions.add_row(old_.negative_preconditions[action]);
+            copy_.action_schema.push_back(old_.action_schema[action]);
+            copy_.action_arguments.add_row(old_.action_arguments[action]);
+            copy_.action_cost_blocks.add_row(old_.action_cost_blocks[action]);
+            for (EffectId effect = old_.effect_begin[action]; effect < old_.effect_begin[action + 1]; ++effect) {
+                copy_.effect_conditions.add_row(old_.effect_conditions[effect]);
+                copy_.effect_negative_conditions.add_row(old_.effect_negative_conditions[effect]);
+                copy_.effect_adds.add_row(old_.effect_adds[effect]);
+                copy_.effect_deletes.add_row(old_.effect_deletes[effect]);
+            }
+            copy_.effect_begin.push_back(static_cast<EffectId>(copy_.effect_adds.size()));
+            for (const CostPartId part : old_.cost_parts(action)) {
+                copy_.cost_part_blocks.add_row(old_.cost_part_blocks[part]);
+                for (const std::uint32_t alternative : old_.cost_alternatives(part)) {
+                    copy_.cost_conditions.add_row(old_.cost_conditions[alternative]);
+                    copy_.cost_negative_conditions.add_row(old_.cost_negative_conditions[alternative]);
+                }
+                copy_.cost_alternative_begin.push_back(static_cast<std::uint32_t>(copy_.cost_conditions.size()));
+            }
+            copy_.cost_part_begin.push_back(static_cast<CostPartId>(copy_.cost_part_count()));
+        }
+    }
+
+    void copy_compounds() {
+        for (auto task = static_cast<TaskId>(old_.action_count()); task < old_.task_count(); ++task) {
+            if (living_.is_alive(task)) {
+                number_of_task_[task] = static_cast<TaskId>(copy_.task_count());
+                copy_.compound_schema.push_back(old_.compound_schema[task - old_.action_count()]);
+                copy_.compound_arguments.add_row(old_.compound_arguments[task - old_.action_count()]);
+            }
+        }
+    }
+
+    void copy_methods() {
+        std::vector<std::optional<MethodId>> number(old_.method_count());
+        copy_.method_part_begin.push_back(0);
+        for (MethodId method = 0; method < old_.method_count(); ++method) {
+            limits_.stop_if_reached();
+            if (!living_.is_method_alive(method)) {
+                continue;
+            }
+            number[method] = static_cast<MethodId>(copy_.method_count());
+            copy_.method_task.push_back(number_of_task_[old_.method_task[method]]);
+            for (const TaskId subtask : old_.method_subtasks[method]) {
+                copy_.method_subtasks.push(number_of_task_[subtask]);
+            }
+            copy_.method_subtasks.finish_row();
+            copy_.method_positions.add_row(old_.method_positions[method]);
+            copy_.method_ordering.add_row(old_.method_ordering[method]);
+            for (auto part = old_.method_part_begin[method]; part < old_.method_part_begin[method + 1]; ++part) {
+                copy_.part_schema.push_back(old_.part_schema[part]);
+                copy_.part_arguments.add_row(old_.part_arguments[part]);
+                copy_.part_origin.push_back(old_.part_origin[part]);
+            }
+            copy_.method_part_begin.push_back(static_cast<std::uint32_t>(copy_.part_schema.size()));
+        }
+        for (auto task = static_cast<TaskId>(old_.action_count()); task < old_.task_count(); ++task) {
+            if (living_.is_alive(task)) {
+                for (const MethodId method : old_.methods_of(task)) {
+                    if (number[method]) {
+                        copy_.compound_methods.push(*number[method]);
+                    }
+                }
+                copy_.compound_methods.finish_row();
+            }
+        }
+    }
+
+    const GroundProblem& old_;
+    const Living& living_;
+    Limits& limits_;
+    std::vector<TaskId> number_of_task_;
+    GroundProblem copy_;
+};
+
+}  // namespace
+
+GroundProblem without_impossible(GroundProblem problem, Limits& limits) {
+    const auto mutexes = std::make_shared<const Mutexes>(problem, limits);
+    problem.mutexes = mutexes;
+    const auto actions = std::views::iota(ActionId{0}, static_cast<ActionId>(problem.action_count()));
+    if (std::ranges::all_of(actions, [&](ActionId action) { return mutexes->is_possible(action); })) {
+        return problem;
+    }
+    const Living living(problem, *mutexes, limits);
+    problem.solvable = living.is_alive(problem.initial_task);
+    return problem.solvable ? Copy(problem, living, limits).run() : std::move(problem);
+}
+
+}  // namespace relax::grounding

@@ -1,0 +1,86 @@
+#ifndef RELAX_HEURISTICS_HMAX_HPP
+#define RELAX_HEURISTICS_HMAX_HPP
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "relax/base/limits.hpp"
+#include "relax/heuristics/relaxed_task.hpp"
+
+namespace relax {
+
+// The max heuristic (Bonet and Geffner 2001): the cost of a fact is that of its cheapest achiever, the cost of an
+// operator's preconditions is that of the dearest one. Computed as a generalised Dijkstra search.
+// Keeps what LM-cut needs: each operator's supporter (the precondition of that highest cost), and an incremental update
+// for operators that become cheaper.
+//
+// Who reads the facts of the state is never looked up: an operator with such preconditions counts what it misses when
+// it wakes up, at the start (composition model) or when its action may start (decomposition model).
+class HMax {
+public:
+    static constexpr Cost kInfinite = std::numeric_limits<Cost>::max();
+
+    HMax(const RelaxedModel& model, Limits& limits);
+
+    // Both computations throw Stopped; after that, the next one must be from scratch.
+
+    // Compute from scratch; `costs` by OwnerId. Returns the cost of the dearest goal, or nothing where one is out of
+    // reach.
+    std::optional<Cost> run(const RelaxedTask& task, std::span<const Cost> costs);
+
+    // Update after the costs of the owners of these operators have been lowered. Returns the cost of the dearest goal.
+    Cost lower(const RelaxedTask& task, std::span<const OperatorId> operators, std::span<const Cost> costs);
+
+    Cost cost(RelaxedFact fact) const { return facts_[fact].epoch == epoch_ ? facts_[fact].cost : kInfinite; }
+    // An operator of this task all of whose preconditions are within reach.
+    bool is_reached(OperatorId op) const { return operators_[op].epoch == epoch_ && operators_[op].missing == 0; }
+    RelaxedFact supporter(OperatorId op) const { return operators_[op].supporter; }
+    // How many operators have been looked at so far.
+    std::uint64_t work() const { return looks_; }
+    // The dearest goal; meaningless where there are no goals.
+    RelaxedFact dearest_goal() const { return dearest_goal_; }
+
+private:
+    struct FactState {
+        Cost cost;
+        std::uint32_t epoch;
+        bool is_settled;  // has left the queue, or holds in the state
+    };
+    struct OperatorState {
+        Cost supporter_cost;
+        RelaxedFact supporter;
+        std::uint32_t missing;  // preconditions not yet reached
+        std::uint32_t epoch;
+        std::uint32_t count;  // of the preconditions; 0 for an operator that must be woken up
+    };
+    using QueueEntry = std::pair<Cost, RelaxedFact>;
+
+    void make_room(const RelaxedTask& task);
+    void wake(const RelaxedTask& task, OperatorId op, RelaxedFact fact, Cost cost, std::span<const Cost> costs);
+    void reach(const RelaxedTask& task, OperatorId op, RelaxedFact fact, Cost cost, std::span<const Cost> costs);
+    void offer(RelaxedFact fact, Cost cost);
+    bool is_empty() const { return queue_.empty() && level_facts_.empty(); }
+    QueueEntry pop();
+    void support_by_dearest(std::span<const RelaxedFact> preconditions, OperatorState& state) const;
+    Cost find_dearest_goal(std::span<const RelaxedFact> goals);
+
+    const RelaxedModel& model_;
+    Limits& limits_;
+    std::vector<FactState> facts_;
+    std::vector<OperatorState> operators_;
+    // The queue: facts of the present level, and a heap of the dearer ones, cheapest first.
+    Cost level_ = 0;
+    std::vector<RelaxedFact> level_facts_;
+    std::vector<QueueEntry> queue_;
+    RelaxedFact dearest_goal_ = 0;
+    std::uint32_t epoch_ = 0;
+    std::uint64_t looks_ = 0;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,74 @@
+#ifndef RELAX_NETWORKS_TOTALLY_ORDERED_NETWORKS_HPP
+#define RELAX_NETWORKS_TOTALLY_ORDERED_NETWORKS_HPP
+
+#include <optional>
+#include <vector>
+
+#include "relax/base/id_table.hpp"
+#include "relax/base/segmented_array.hpp"
+#include "relax/networks/macro_actions.hpp"
+#include "relax/networks/task_network.hpp"
+
+namespace relax {
+
+// The method's subtasks by index, in their order; where they have none, in that of the domain.
+std::vector<std::uint32_t> sequence_of(const GroundProblem& problem, MethodId method);
+
+// Lists of tasks: a first task and the number of the rest. Equal lists have equal numbers. Actions that stand together
+// in a list will be executed one after the other, so a list's form has a macro-action in their place.
+class TotallyOrderedNetworks final : public TaskNetworks {
+public:
+    // `use_macros`: whether forms are wanted. Methods that do not order their subtasks totally are taken as if they
+    // did.
+    TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, bool use_macros,
+                           Limits& limits);
+
+    // Every method orders its subtasks totally.
+    static bool fits(const GroundProblem& problem);
+
+    NetworkId initial() override;
+    void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const override;
+    void tasks(NetworkId network, std::vector<TaskId>& tasks) const override;
+    bool are_totally_ordered() const override { return true; }
+    void ordered_tasks(NetworkId network, OrderedTasks& ordered) const override;
+    NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) override;
+    NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
+    Cost bound(NetworkId network) const override { return cells_[network].bound; }
+    std::uint32_t size(NetworkId network) const override { return cells_[network].size; }
+    FormId form(NetworkId network) const override { return macros_ ? cells_[network].form : network; }
+    bool is_impossible(NetworkId network) const override { return macros_ && cells_[network].form == kImpossible; }
+
+private:
+    struct Cell {
+        Cost bound;
+        TaskId first;
+        NetworkId rest;
+        std::uint32_t size;
+        FormId form;
+    };
+    // A list of tasks and macro-actions: the latter's numbers come after those of tasks.
+    struct Form {
+        std::uint32_t first;
+        FormId rest;
+    };
+    static constexpr NetworkId kEmpty = 0;
+    static constexpr FormId kImpossible = static_cast<FormId>(-1);
+
+    NetworkId intern(TaskId first, NetworkId rest);
+    FormId form_of(TaskId first, FormId rest);
+    FormId intern_form(std::uint32_t first, FormId rest);
+
+    const GroundProblem& problem_;
+    std::vector<Cost> task_bounds_;
+    Rows<std::uint32_t> sequence_;  // by MethodId: indices of its subtasks, in their order
+    SegmentedArray<Cell> cells_;
+    IdTable table_;
+    std::vector<TaskId> earlier_;
+    std::optional<MacroActions> macros_;
+    SegmentedArray<Form> forms_;
+    IdTable form_table_;
+};
+
+}  // namespace relax
+
+#endif

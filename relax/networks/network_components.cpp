@@ -1,0 +1,52 @@
+#include "relax/networks/network_components.hpp"
+
+#include <algorithm>
+
+#include "relax/analysis/tdg_bound.hpp"
+
+namespace relax {
+
+ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std::uint32_t>* order_of_it) {
+    const std::size_t count = draft.tasks.size();
+    const std::size_t words = row_words(count);
+    const auto order = canonical_.of(draft);
+    place_.resize(count);
+    for (std::size_t index = 0; index < count; ++index) {
+        place_[order[index]] = static_cast<std::uint32_t>(index);
+    }
+    form_.assign(form_words(count), 0);
+    work_ += 2 * form_.size();
+    Cost bound = 0;
+    std::uint32_t unconstrained = 0;
+    for (std::size_t index = 0; index < count; ++index) {
+        bool is_unconstrained = true;
+        for_each_bit(draft.row(order[index]), [&](std::size_t earlier) {
+            form_[index * words + place_[earlier] / 64] |= std::uint64_t{1} << (place_[earlier] % 64);
+            is_unconstrained = false;
+        });
+        unconstrained += is_unconstrained ? 1 : 0;
+        const TaskId task = draft.tasks[order[index]];
+        form_[count * words + index / 2] |= std::uint64_t{task} << (index % 2 * 32);
+        bound = add_bounds(bound, task_bounds_[task]);
+    }
+    if (order_of_it != nullptr) {
+        order_of_it->assign(order.begin(), order.end());
+    }
+    const std::uint64_t hash = hash_values(form_);
+    const auto known = table_.find(hash, [&](ComponentId id) {
+        return records_[id].size == count && std::equal(form_.begin(), form_.end(), records_[id].words);
+    });
+    if (known) {
+        return *known;
+    }
+    const auto id = static_cast<ComponentId>(records_.size());
+    const auto run = words_.allocate(form_.size());
+    std::copy(form_.begin(), form_.end(), run.begin());
+    records_.push_back({run.data(), bound, static_cast<std::uint32_t>(count), unconstrained});
+    table_.add(hash, id, [this](ComponentId other) {
+        return hash_values(std::span(records_[other].words, form_words(records_[other].size)));
+    });
+    return id;
+}
+
+}  // namespace relax

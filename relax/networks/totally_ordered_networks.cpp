@@ -1,0 +1,182 @@
+#include "relax/networks/totally_ordered_networks.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "relax/analysis/tdg_bound.hpp"
+
+namespace relax {
+
+namespace {
+
+std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_t{first} << 32) | rest); }
+
+}  // namespace
+
+std::vector<std::uint32_t> sequence_of(const GroundProblem& problem, MethodId method) {
+    const auto ordering = problem.method_ordering[method];  // sorted pairs
+    const std::size_t count = problem.method_subtasks[method].size();
+    std::vector<std::uint32_t> before(count, 0);
+    for (const auto& [earlier, later] : ordering) {
+        ++before[later];
+    }
+    // Of those that may come next, the first in the domain: a heap.
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t subtask = 0; subtask < count; ++subtask) {
+        if (before[subtask] == 0) {
+            open.push_back(subtask);
+        }
+    }
+    std::vector<std::uint32_t> sequence;
+    while (!open.empty()) {
+        std::ranges::pop_heap(open, std::greater<>());
+        const std::uint32_t next = open.back();
+        open.pop_back();
+        sequence.push_back(next);
+        for (const auto& [earlier, later] :
+             std::ranges::equal_range(ordering, next, {}, [](const auto& pair) { return pair.first; })) {
+            if (--before[later] == 0) {
+                open.push_back(later);
+                std::ranges::push_heap(open, std::greater<>());
+            }
+        }
+    }
+    return sequence;
+}
+
+TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+                                               bool use_macros, Limits& limits)
+    : problem_(problem), task_bounds_(std::move(task_bounds)) {
+    for (MethodId method = 0; method < problem.method_count(); ++method) {
+        limits.stop_if_reached();
+        sequence_.add_row(sequence_of(problem, method));
+    }
+    if (use_macros) {
+        macros_.emplace(problem, limits);
+    }
+    cells_.push_back({0, 0, kEmpty, 0, 0});
+    forms_.push_back({0, 0});
+}
+
+bool TotallyOrderedNetworks::fits(const GroundProblem& problem) {
+    for (MethodId method = 0; method < problem.method_count(); ++method) {
+        const std::size_t count = problem.method_subtasks[method].size();
+        if (count > 1 && problem.method_ordering[method].size() != count * (count - 1) / 2) {
+            return false;
+        }
+    }
+    return true;
+}
+
+NetworkId TotallyOrderedNetworks::initial() { return intern(problem_.initial_task, kEmpty); }
+
+void TotallyOrderedNetworks::unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const {
+    if (network != kEmpty) {
+        occurrences.push_back({0, cells_[network].first});
+    }
+}
+
+void TotallyOrderedNetworks::tasks(NetworkId network, std::vector<TaskId>& tasks) const {
+    for (; network != kEmpty; network = cells_[network].rest) {
+        tasks.push_back(cells_[network].first);
+    }
+}
+
+void TotallyOrderedNetworks::ordered_tasks(NetworkId network, OrderedTasks& ordered) const {
+    ordered.reset(cells_[network].size);
+    for (std::size_t index = 0; network != kEmpty; network = cells_[network].rest, ++index) {
+        ordered.tasks[index] = cells_[network].first;
+        for (std::size_t earlier = 0; earlier < index; ++earlier) {
+            ordered.put_before(earlier, index);
+        }
+    }
+}
+
+NetworkId TotallyOrderedNetworks::progress(NetworkId network, std::uint32_t /*index*/, std::vector<Origin>* origins) {
+    const Cell& cell = cells_[network];
+    if (origins != nullptr) {
+        origins->clear();
+        for (std::uint32_t index = 1; index < cell.size; ++index) {
+            origins->push_back({false, index});
+        }
+    }
+    return cell.rest;
+}
+
+NetworkId TotallyOrderedNetworks::decompose(NetworkId network, std::uint32_t index, MethodId method,
+                                            std::vector<Origin>* origins) {
+    const std::uint32_t size = cells_[network].size;
+    earlier_.clear();
+    for (; earlier_.size() < index; network = cells_[network].rest) {
+        earlier_.push_back(cells_[network].first);
+    }
+    const auto sequence = sequence_[method];
+    const auto subtasks = problem_.method_subtasks[method];
+    NetworkId result = cells_[network].rest;
+    for (std::size_t place = sequence.size(); place-- > 0;) {
+        result = intern(subtasks[sequence[place]], result);
+    }
+    for (std::size_t place = index; place-- > 0;) {
+        result = intern(earlier_[place], result);
+    }
+    if (origins != nullptr) {
+        origins->clear();
+        for (std::uint32_t old = 0; old < size; ++old) {
+            if (old != index) {
+                origins->push_back({false, old});
+                continue;
+            }
+            for (const std::uint32_t subtask : sequence) {
+                origins->push_back({true, subtask});
+            }
+        }
+    }
+    return result;
+}
+
+NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
+    const std::uint64_t hash = hash_cell(first, rest);
+    const auto known =
+        table_.find(hash, [&](NetworkId id) { return cells_[id].first == first && cells_[id].rest == rest; });
+    if (known) {
+        return *known;
+    }
+    const auto id = static_cast<NetworkId>(cells_.size());
+    cells_.push_back({add_bounds(cells_[rest].bound, task_bounds_[first]), first, rest, cells_[rest].size + 1,
+                      macros_ ? form_of(first, cells_[rest].form) : 0});
+    table_.add(hash, id, [this](NetworkId other) { return hash_cell(cells_[other].first, cells_[other].rest); });
+    return id;
+}
+
+FormId TotallyOrderedNetworks::form_of(TaskId first, FormId rest) {
+    if (rest == kImpossible) {
+        return kImpossible;
+    }
+    if (!problem_.is_primitive(first) || !macros_->fits(first)) {
+        return intern_form(first, rest);
+    }
+    const auto tasks = static_cast<std::uint32_t>(problem_.task_count());
+    const bool continues = rest != kEmpty && forms_[rest].first >= tasks;
+    const auto macro = macros_->prepend(first, continues ? forms_[rest].first - tasks : MacroActions::kNothing);
+    if (!macro) {
+        return kImpossible;
+    }
+    const FormId after = continues ? forms_[rest].rest : rest;
+    return *macro == MacroActions::kNothing ? after : intern_form(tasks + *macro, after);
+}
+
+FormId TotallyOrderedNetworks::intern_form(std::uint32_t first, FormId rest) {
+    const std::uint64_t hash = hash_cell(first, rest);
+    const auto known =
+        form_table_.find(hash, [&](FormId id) { return forms_[id].first == first && forms_[id].rest == rest; });
+    if (known) {
+        return *known;
+    }
+    const auto id = static_cast<FormId>(forms_.size());
+    forms_.push_back({first, rest});
+    form_table_.add(hash, id, [this](FormId other) { return hash_cell(forms_[other].first, forms_[other].rest); });
+    return id;
+}
+
+}  // namespace relax

@@ -1,0 +1,45 @@
+#ifndef RELAX_PROGRESSION_ENDING_HPP
+#define RELAX_PROGRESSION_ENDING_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "relax/base/limits.hpp"
+#include "relax/networks/macro_actions.hpp"
+#include "relax/networks/ordered_tasks.hpp"
+#include "relax/problem/ground_problem.hpp"
+
+namespace relax {
+
+// How a network in partial order can end: its last actions, found backward from the end as far as nothing but actions
+// can come last. Where no order of them can be executed, the network leads nowhere, whatever its compound tasks become.
+class Ending {
+public:
+    Ending(const GroundProblem& problem, Limits& limits) : problem_(problem), macros_(problem, limits) {}
+
+    // False: no state that can be reached lets the network be executed. True says nothing.
+    bool is_possible(const OrderedTasks& network);
+    // Whether it should be asked about the next network: rarely, where it has hardly ever told anything.
+    bool is_worth_asking();
+
+    // How many tasks and words of their order it has looked at so far.
+    std::uint64_t work() const { return work_; }
+
+private:
+    bool can_end(const OrderedTasks& network, MacroId last);
+
+    const GroundProblem& problem_;
+    MacroActions macros_;
+    std::vector<bool> is_left_;              // by occurrence: not yet among the last actions
+    std::vector<std::uint64_t> is_before_;   // a row: occurrences with others after them that are left
+    std::vector<std::uint32_t> candidates_;  // of all levels: occurrences that may be next, backward
+    std::uint32_t steps_ = 0;                // tried so far
+    std::uint64_t networks_ = 0;
+    std::uint64_t asked_ = 0;
+    std::uint64_t impossible_ = 0;
+    std::uint64_t work_ = 0;
+};
+
+}  // namespace relax
+
+#endif

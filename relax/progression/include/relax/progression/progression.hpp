@@ -1,0 +1,129 @@
+#ifndef RELAX_PROGRESSION_PROGRESSION_HPP
+#define RELAX_PROGRESSION_PROGRESSION_HPP
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "relax/analysis/prices.hpp"
+#include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/networks/node_view.hpp"
+#include "relax/networks/task_network.hpp"
+#include "relax/problem/ground_problem.hpp"
+#include "relax/problem/state.hpp"
+#include "relax/progression/branching.hpp"
+#include "relax/progression/relevant_facts.hpp"
+#include "relax/progression/stubborn_set.hpp"
+
+namespace relax {
+
+// What leads from a node to the next: an action executed (no method), or a compound task decomposed.
+struct SearchStep {
+    std::uint32_t occurrence = 0;  // index in the network before the step
+    std::optional<MethodId> method;
+};
+
+struct Successor {
+    StateId state;
+    NetworkId network;
+    Cost cost;
+    SearchStep step;
+};
+
+struct ProgressionOptions {
+    bool skip_dead_methods = true;  // leave out methods whose first task cannot be executed where it would come next
+    bool use_stubborn_sets = true;  // leave out actions that can wait until others have been executed
+    bool use_macros = false;        // actions in a row count as one (TaskNetworks::form)
+    bool forget_facts = true;       // states keep only the facts that matter to what is left to do
+    bool when_due = false;          // methods that begin with an action are not chosen until it can be executed
+    bool in_sequence = false;       // tasks without an order come in that of the domain: some plans are left out
+};
+
+// Progression over states and task networks; knows nothing of search algorithms.
+//
+// Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend
+// on the state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to
+// try the methods of one of them. An applicable action that costs and changes nothing (a method precondition) can only
+// be in the way: executing it at once is enough, whatever else is unconstrained. Otherwise the applicable unconstrained
+// actions are tried, of which a stubborn set is enough: beside compound tasks, too, where it is no larger than the set
+// of methods. Where nothing but one compound task is unconstrained, the first task of a method comes next: a method
+// whose first task is an action that is not applicable leads nowhere.
+class Progression {
+public:
+    // All that makes states or networks may throw Stopped.
+    //
+    // `task_bounds`: see tdg_bound.
+    Progression(const GroundProblem& problem, Prices prices, std::vector<Cost> task_bounds,
+                const ProgressionOptions& options, Limits& limits);
+
+    StateId initial_state();
+    NetworkId initial_network() { return networks_->initial(); }
+    // Replace the content of `successors` by the node's successors.
+    void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
+    // Of the actions that cost and change nothing, execute at once only those that are named (by ActionId) from now on:
+    // for searches to which the order of the others makes a difference.
+    void hurry_only(const std::vector<bool>& actions);
+
+    // The same where there is at most one successor, or one is enough, and that is found with little work. False, and
+    // no successors, elsewhere.
+    bool expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors);
+    // What heuristics see of a node; valid until the next call.
+    NodeView view(StateId state, NetworkId network);
+
+    // The network's tasks and their order; valid until the next call.
+    const OrderedTasks& ordered_tasks(NetworkId network) {
+        networks_->ordered_tasks(network, ordered_tasks_);
+        work_ += ordered_tasks_.predecessors.size();
+        return ordered_tasks_;
+    }
+
+    // What the sizes of networks have cost so far, in tasks and words of their order that were looked at.
+    std::uint64_t work() const { return work_ + networks_->work() + (stubborn_set_ ? stubborn_set_->work() : 0); }
+
+    const StateRegistry& states() const { return states_; }
+    TaskNetworks& networks() { return *networks_; }
+    // Tell it what becomes of the nodes, and the tasks are chosen the better.
+    Branching& branching() { return branching_; }
+
+private:
+    bool execute_at_once(StateId state, NetworkId network, std::vector<Successor>& successors);
+    bool decompose_at_once(StateId state, NetworkId network, std::vector<Successor>& successors);
+    void expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors);
+    std::optional<Occurrence> compound_to_decompose() const;
+    bool is_in_the_way(TaskId task) const { return problem_.is_primitive(task) && is_void_[task]; }
+    bool is_void(ActionId action) const;
+    Cost cost(ActionId action, std::span<const std::uint64_t> state) const;
+    void find_live_methods(StateId state);
+    void choose_actions(StateId state, NetworkId network);
+    Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
+    StateId keep_relevant(NetworkId network);
+    Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
+
+    const GroundProblem& problem_;
+    Prices prices_;
+    StateTransition transition_;
+    std::vector<bool> is_void_;  // by ActionId: costs and changes nothing in any state, and comes at once
+    StateRegistry states_;
+    std::unique_ptr<TaskNetworks> networks_;
+    Branching branching_;
+    // By MethodId: an action that comes before all other subtasks; empty if dead methods are not to be skipped.
+    std::vector<std::optional<ActionId>> first_action_;
+    std::optional<StubbornSet> stubborn_set_;
+    std::optional<RelevantFacts> relevant_facts_;
+    OrderedTasks ordered_tasks_;
+    std::vector<Occurrence> unconstrained_;
+    // Of the node looked at: the task to decompose, if there is one; the methods or else the actions to try.
+    std::optional<Occurrence> compound_;
+    std::vector<MethodId> live_methods_;
+    std::vector<Occurrence> to_execute_;
+    StateBits next_;
+    bool waits_until_due_;
+    std::uint64_t work_ = 0;  // of looking at networks
+};
+
+}  // namespace relax
+
+#endif

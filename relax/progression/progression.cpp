@@ -1,0 +1,267 @@
+#include "relax/progression/progression.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "relax/base/cost.hpp"
+#include "relax/networks/totally_ordered_networks.hpp"
+
+namespace relax {
+
+namespace {
+
+std::optional<ActionId> first_action(const GroundProblem& problem, MethodId method, bool in_sequence) {
+    const auto subtasks = problem.method_subtasks[method];
+    const auto ordering = problem.method_ordering[method];
+    std::size_t first = 0;  // if there is only one subtask
+    if (in_sequence && subtasks.size() > 1) {
+        first = sequence_of(problem, method).front();
+    } else if (subtasks.size() > 1) {
+        // The pairs are sorted: look for a run that has all the others.
+        std::size_t run = 0;
+        std::size_t at = 0;
+        for (; at < ordering.size() && run + 1 < subtasks.size(); ++at) {
+            run = at > 0 && ordering[at].first == ordering[at - 1].first ? run + 1 : 1;
+        }
+        if (run + 1 < subtasks.size()) {
+            return std::nullopt;
+        }
+        first = ordering[at - 1].first;
+    }
+    return !subtasks.empty() && problem.is_primitive(subtasks[first]) ? std::optional(subtasks[first]) : std::nullopt;
+}
+
+}  // namespace
+
+Progression::Progression(const GroundProblem& problem, Prices prices, std::vector<Cost> task_bounds,
+                         const ProgressionOptions& options, Limits& limits)
+    : problem_(problem),
+      prices_(std::move(prices)),
+      transition_(problem),
+      states_(transition_.word_count()),
+      networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros, options.in_sequence, limits)),
+      branching_(problem),
+      next_(transition_.word_count()),
+      waits_until_due_(options.when_due && options.skip_dead_methods) {
+    for (ActionId action = 0; action < problem.action_count(); ++action) {
+        is_void_.push_back(is_void(action));
+    }
+    if (options.use_stubborn_sets) {
+        stubborn_set_.emplace(problem, limits);
+    }
+    if (options.forget_facts) {
+        relevant_facts_.emplace(problem, limits);
+    }
+    if (options.skip_dead_methods) {
+        for (MethodId method = 0; method < problem.method_count(); ++method) {
+            limits.stop_if_reached();
+            first_action_.push_back(first_action(problem, method, options.in_sequence));
+        }
+    }
+}
+
+StateId Progression::initial_state() {
+    next_ = transition_.initial_state();
+    return keep_relevant(initial_network());
+}
+
+void Progression::expand(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    if (waits_until_due_) {
+        expand_when_due(state, network, successors);
+        return;
+    }
+    if (expand_if_forced(state, network, successors)) {
+        return;
+    }
+    for (const MethodId method : live_methods_) {
+        successors.push_back(decompose(state, network, *compound_, method));
+    }
+    for (const Occurrence& occurrence : to_execute_) {
+        successors.push_back(execute(state, network, occurrence));
+    }
+}
+
+// The successors where methods wait until they are due. Nothing is lost: a method whose first action comes before all
+// its other subtasks can be applied just before that is executed, when the action is applicable and the task
+// unconstrained.
+void Progression::expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    if (execute_at_once(state, network, successors) || decompose_at_once(state, network, successors)) {
+        return;
+    }
+    for (const Occurrence& occurrence : unconstrained_) {
+        if (problem_.is_primitive(occurrence.task)) {
+            if (transition_.is_applicable(occurrence.task, states_[state])) {
+                successors.push_back(execute(state, network, occurrence));
+            }
+            continue;
+        }
+        for (const MethodId method : problem_.methods_of(occurrence.task)) {
+            if (!first_action_[method] || transition_.is_applicable(*first_action_[method], states_[state])) {
+                successors.push_back(decompose(state, network, occurrence, method));
+            }
+        }
+    }
+}
+
+// Decompose a task of whose methods none begins with an action, if one is unconstrained: when does not matter.
+bool Progression::decompose_at_once(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    const auto found = std::ranges::find_if(unconstrained_, [this](const Occurrence& occurrence) {
+        return !problem_.is_primitive(occurrence.task) &&
+               std::ranges::none_of(problem_.methods_of(occurrence.task),
+                                    [this](MethodId method) { return first_action_[method].has_value(); });
+    });
+    if (found == unconstrained_.end()) {
+        return false;
+    }
+    for (const MethodId method : problem_.methods_of(found->task)) {
+        successors.push_back(decompose(state, network, *found, method));
+    }
+    return true;
+}
+
+// Look at the node, and execute an applicable action that can only be in the way, if there is one.
+bool Progression::execute_at_once(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    successors.clear();
+    unconstrained_.clear();
+    networks_->unconstrained(network, unconstrained_);
+    work_ += unconstrained_.size();
+    for (const Occurrence& occurrence : unconstrained_) {
+        if (is_in_the_way(occurrence.task) && transition_.is_applicable(occurrence.task, states_[state])) {
+            successors.push_back(execute(state, network, occurrence));
+            return true;
+        }
+    }
+    return false;
+}
+
+bool Progression::expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors) {
+    live_methods_.clear();
+    to_execute_.clear();
+    if (execute_at_once(state, network, successors)) {
+        return true;
+    }
+    compound_ = compound_to_decompose();
+    if (compound_) {
+        find_live_methods(state);
+    }
+    choose_actions(state, network);
+    if (live_methods_.size() + to_execute_.size() > 1) {
+        return false;
+    }
+    if (!live_methods_.empty()) {
+        successors.push_back(decompose(state, network, *compound_, live_methods_.front()));
+    } else if (!to_execute_.empty()) {
+        successors.push_back(execute(state, network, to_execute_.front()));
+    }
+    return true;
+}
+
+// Execute the actions of a stubborn set instead of decomposing, if they are no more than the methods.
+void Progression::choose_actions(StateId state, NetworkId network) {
+    const bool has_actions = std::ranges::any_of(
+        unconstrained_, [this](const Occurrence& occurrence) { return problem_.is_primitive(occurrence.task); });
+    if (!has_actions || (compound_ && live_methods_.size() <= 1)) {
+        return;
+    }
+    if (stubborn_set_ && unconstrained_.size() > 1) {
+        const auto found = stubborn_set_->find(ordered_tasks(network), states_[state], unconstrained_);
+        if (found && (!compound_ || found->size() <= live_methods_.size())) {
+            live_methods_.clear();
+            to_execute_.assign(found->begin(), found->end());
+        }
+    } else if (!compound_) {
+        std::ranges::copy_if(unconstrained_, std::back_inserter(to_execute_), [&](const Occurrence& occurrence) {
+            return transition_.is_applicable(occurrence.task, states_[state]);
+        });
+    }
+}
+
+void Progression::hurry_only(const std::vector<bool>& actions) {
+    for (ActionId action = 0; action < problem_.action_count(); ++action) {
+        is_void_[action] = is_void_[action] && actions[action];
+    }
+}
+
+// Whether the action changes nothing, and costs nothing whatever the state is.
+bool Progression::is_void(ActionId action) const {
+    return transition_.has_no_effect(action) && prices_.actions[action] == 0 &&
+           std::ranges::all_of(problem_.cost_parts(action),
+                               [this](CostPartId part) { return prices_.parts[part] == 0; });
+}
+
+Cost Progression::cost(ActionId action, std::span<const std::uint64_t> state) const {
+    Cost sum = prices_.actions[action];
+    for (const CostPartId part : problem_.cost_parts(action)) {
+        if (transition_.is_due(part, state)) {
+            sum = add_bounds(sum, prices_.parts[part]);
+        }
+    }
+    return sum;
+}
+
+void Progression::find_live_methods(StateId state) {
+    const bool comes_next = !first_action_.empty() && unconstrained_.size() == 1;
+    for (const MethodId method : problem_.methods_of(compound_->task)) {
+        if (!comes_next || !first_action_[method] ||
+            transition_.is_applicable(*first_action_[method], states_[state])) {
+            live_methods_.push_back(method);
+        }
+    }
+}
+
+NodeView Progression::view(StateId state, NetworkId network) {
+    if (!networks_->are_totally_ordered()) {
+        ordered_tasks(network);
+        return {states_[state], ordered_tasks_.tasks, networks_->bound(network), false, ordered_tasks_.predecessors};
+    }
+    ordered_tasks_.tasks.clear();
+    networks_->tasks(network, ordered_tasks_.tasks);
+    work_ += ordered_tasks_.tasks.size();
+    return {states_[state], ordered_tasks_.tasks, networks_->bound(network), true, {}};
+}
+
+// The first one of the best unconstrained compound tasks.
+std::optional<Occurrence> Progression::compound_to_decompose() const {
+    std::optional<Occurrence> best;
+    double fewest = 0;
+    for (const Occurrence& occurrence : unconstrained_) {
+        if (!problem_.is_primitive(occurrence.task)) {
+            const double survivors = branching_.expect_survivors(occurrence.task);
+            if (!best || survivors < fewest) {
+                best = occurrence;
+                fewest = survivors;
+            }
+        }
+    }
+    return best;
+}
+
+Successor Progression::decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method) {
+    const NetworkId next = networks_->decompose(network, occurrence.index, method);
+    if (relevant_facts_) {
+        std::ranges::copy(states_[state], next_.begin());
+        state = keep_relevant(next);
+    }
+    return {state, next, 0, {occurrence.index, method}};
+}
+
+Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {
+    transition_.apply(occurrence.task, states_[state], next_);
+    const NetworkId next = networks_->progress(network, occurrence.index);
+    return {keep_relevant(next), next, cost(occurrence.task, states_[state]), {occurrence.index, std::nullopt}};
+}
+
+// Returns the state of the facts in `next_`, as far as they matter to the network.
+StateId Progression::keep_relevant(NetworkId network) {
+    if (relevant_facts_) {
+        const auto relevant = relevant_facts_->of(*networks_, network);
+        work_ += networks_->are_totally_ordered() ? 0 : networks_->size(network);
+        for (std::size_t word = 0; word < next_.size(); ++word) {
+            next_[word] &= relevant[word];
+        }
+    }
+    return states_.intern(next_);
+}
+
+}  // namespace relax

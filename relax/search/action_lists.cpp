@@ -1,0 +1,36 @@
+#include "relax/search/action_lists.hpp"
+
+namespace relax {
+
+namespace {
+
+std::uint64_t hash_cell(ActionLabel last, ActionListId before) { return mix((std::uint64_t{last} << 32) | before); }
+
+}  // namespace
+
+ActionListId ActionLists::insert(ActionListId list, ActionLabel action) {
+    later_.clear();
+    for (; list != kEmpty && cells_[list].last > action; list = cells_[list].before) {
+        later_.push_back(cells_[list].last);
+    }
+    list = intern(action, list);
+    for (; !later_.empty(); later_.pop_back()) {
+        list = intern(later_.back(), list);
+    }
+    return list;
+}
+
+ActionListId ActionLists::intern(ActionLabel last, ActionListId before) {
+    const std::uint64_t hash = hash_cell(last, before);
+    const auto known =
+        table_.find(hash, [&](ActionListId id) { return cells_[id].last == last && cells_[id].before == before; });
+    if (known) {
+        return *known;
+    }
+    const auto id = static_cast<ActionListId>(cells_.size());
+    cells_.push_back({last, before});
+    table_.add(hash, id, [this](ActionListId other) { return hash_cell(cells_[other].last, cells_[other].before); });
+    return id;
+}
+
+}  // namespace relax

@@ -1,0 +1,45 @@
+#ifndef RELAX_SEARCH_ACTION_LISTS_HPP
+#define RELAX_SEARCH_ACTION_LISTS_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "relax/base/id_table.hpp"
+#include "relax/base/segmented_array.hpp"
+
+namespace relax {
+
+// What makes an action the same as another to whoever reads a plan, whichever of its cases is executed.
+using ActionLabel = std::uint32_t;
+
+using ActionListId = std::uint32_t;
+
+// Lists of actions, each kept once: equal lists have equal numbers. A list is its last action and the number of the
+// list of all before it.
+class ActionLists {
+public:
+    static constexpr ActionListId kEmpty = 0;
+
+    ActionLists() { cells_.push_back({0, kEmpty}); }
+
+    // The list with one more action, at the end.
+    ActionListId append(ActionListId list, ActionLabel action) { return intern(action, list); }
+    // The sorted list with one more action, where it belongs. Lists that are made this way alone stand for multisets.
+    ActionListId insert(ActionListId list, ActionLabel action);
+
+private:
+    struct Cell {
+        ActionLabel last;
+        ActionListId before;
+    };
+
+    ActionListId intern(ActionLabel last, ActionListId before);
+
+    SegmentedArray<Cell> cells_;
+    IdTable table_;
+    std::vector<ActionLabel> later_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,85 @@
+#ifndef RELAX_SEARCH_GREEDY_SEARCH_HPP
+#define RELAX_SEARCH_GREEDY_SEARCH_HPP
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "relax/analysis/prices.hpp"
+#include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/heuristics/heuristic.hpp"
+#include "relax/problem/ground_problem.hpp"
+#include "relax/progression/progression.hpp"
+#include "relax/search/forced_circle.hpp"
+#include "relax/search/open_list.hpp"
+#include "relax/search/search_node.hpp"
+#include "relax/search/search_options.hpp"
+#include "relax/search/search_result.hpp"
+#include "relax/search/stepwise_search.hpp"
+#include "relax/search/type_based_list.hpp"
+
+namespace relax {
+
+// Lazy greedy best-first search with preferred successors (Richter and Westphal, "The LAMA planner", 2010), for a plan
+// soon and not for its cost. A node is evaluated when it is popped, and its successors wait with its estimate. Methods
+// of the heuristic's relaxed plan wait in a list of their own, too, which has its turn more often as long as that makes
+// progress. Every other node may be taken from the type-based list, which leads out of plateaus.
+//
+// A node with a single successor is nothing to decide: the search goes through it without asking the heuristic. Once it
+// has a plan, it goes on for as long as that took, for a cheaper one.
+class GreedySearch final : public StepwiseSearch {
+public:
+    GreedySearch(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                 SearchStatistics& statistics);
+
+    bool advance(std::uint64_t work) override;
+    std::uint64_t work() const override;
+    void set_upper_bound(Cost bound) override {
+        options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound));
+    }
+    // All that is proven is what the root's bound says.
+    Cost lower_bound() const override { return proven_; }
+    std::optional<Cost> best() const override { return statistics_.best; }
+    SearchResult result() override;
+
+private:
+    std::optional<StopReason> search(std::uint64_t most_work);
+    NodeId pop();
+    std::optional<NodeId> follow(NodeId node);
+    std::optional<Cost> evaluate(NodeId node);
+    std::optional<NodeId> generate(NodeId parent, const Successor& successor);
+    void push_successors(NodeId parent, Cost h);
+
+    const GroundProblem& problem_;
+    Prices prices_;
+    SearchOptions options_;
+    Limits& limits_;
+    SearchStatistics& statistics_;
+    Progression progression_;
+    std::unique_ptr<Heuristic> heuristic_;
+    DuplicateRegistry nodes_;
+    OpenList open_;
+    OpenList preferred_;
+    TypeBasedList types_;
+    std::int64_t turns_ = 0;            // of the open list
+    std::int64_t preferred_turns_ = 0;  // of the list of preferred successors, less what it has earned
+    bool explores_ = false;             // the next node comes from the type-based list
+    std::optional<Cost> least_h_;
+    Cost proven_ = 0;
+    std::optional<NodeId> goal_;  // of the cheapest plan so far
+    std::optional<StopReason> stop_;
+    bool is_done_ = false;
+    bool leaves_out_ = false;  // there may be plans that cost `kMostCost` or more
+    std::uint64_t most_evaluations_;
+    std::uint64_t most_work_ = std::numeric_limits<std::uint64_t>::max();
+    ForcedCircle circle_;
+    std::vector<Successor> successors_;
+};
+
+}  // namespace relax
+
+#endif

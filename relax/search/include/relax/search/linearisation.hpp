@@ -1,0 +1,55 @@
+#ifndef RELAX_SEARCH_LINEARISATION_HPP
+#define RELAX_SEARCH_LINEARISATION_HPP
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/base/segmented_array.hpp"
+#include "relax/progression/progression.hpp"
+#include "relax/search/open_list.hpp"
+#include "relax/search/search_node.hpp"
+
+namespace relax {
+
+// Executability of primitive networks (the paper's Definition 4.2): finds the cheapest order of the tasks that respects
+// the network's and can be executed from the initial state. An A* search of its own, since the question is NP-complete.
+// Pairs of state and rest of a network that have proven hopeless are remembered from one network to the next.
+//
+// A choice between the cases of an action counts as primitive: which case it is depends on the state.
+class Linearisation {
+public:
+    Linearisation(Progression& progression, Limits& limits)
+        : progression_(progression), limits_(limits), nodes_(progression.networks()) {}
+
+    struct Order {
+        std::vector<SearchStep> steps;
+        Cost cost;
+    };
+
+    // Returns the cheapest order, or nothing if there is none or `stop` says that a limit was reached.
+    std::optional<Order> find(NetworkId network, std::optional<StopReason>& stop);
+    // Whether there may be orders that cost `kMostCost` or more; they were left out.
+    bool leaves_out() const { return leaves_out_; }
+
+private:
+    void reach(NodeId from, Cost g, const Successor& successor);
+    std::vector<SearchStep> steps_to(NodeId node) const;
+
+    Progression& progression_;
+    Limits& limits_;
+    DuplicateRegistry nodes_;
+    SegmentedArray<std::uint32_t> seen_;  // by NodeId: the latest call that met the node, or kHopeless
+    static constexpr std::uint32_t kHopeless = 0;
+    std::uint32_t call_ = 0;
+    bool leaves_out_ = false;
+    OpenList open_;
+    std::vector<NodeId> met_;  // in this call
+    std::vector<Successor> successors_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,82 @@
+#ifndef RELAX_SEARCH_PLAN_BASED_HPP
+#define RELAX_SEARCH_PLAN_BASED_HPP
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "relax/analysis/prices.hpp"
+#include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/base/segmented_array.hpp"
+#include "relax/problem/ground_problem.hpp"
+#include "relax/progression/open_preconditions.hpp"
+#include "relax/progression/progression.hpp"
+#include "relax/search/linearisation.hpp"
+#include "relax/search/open_list.hpp"
+#include "relax/search/search_options.hpp"
+#include "relax/search/search_result.hpp"
+
+namespace relax {
+
+// Plan-based search (the paper's Algorithm 3): A* over task networks, without a state. A network's f is the sum of its
+// primitive tasks' costs (g) and of its compound tasks' decomposition-graph bounds (h); decomposing a task gives the
+// next ones. A primitive network is a solution if some order of it can be executed. Where costs depend on the state, g
+// is a lower bound: the network is put back with the cost of its cheapest order and returned when it is popped again.
+//
+// Networks with a precondition that nothing can make true any more are left out (see OpenPreconditions); the paper
+// finds out when all their tasks are primitive.
+//
+// Decomposing a task never bars another decomposition, so that it is enough to branch over one compound task: the one
+// with the fewest methods. `SearchOptions::branches_over_all` tries every task, as the paper writes it.
+class PlanBased {
+public:
+    // Of the options, it reads the heuristic (Tdg or Blind), the upper
+    // bound and those that name PlanBased.
+    PlanBased(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+              SearchStatistics& statistics);
+
+    SearchResult run();
+
+private:
+    // A network and a way to it. All ways to a network have the same f.
+    struct Node {
+        NetworkId network;
+        NodeId parent;  // itself for the root
+        SearchStep step;
+    };
+    struct Solution {
+        NodeId node;
+        Cost cost;
+        std::vector<SearchStep> order;
+    };
+
+    std::optional<StopReason> search();
+    std::optional<StopReason> execute(NodeId node);
+    void expand(NodeId node);
+    void generate(NodeId parent, NetworkId network, const SearchStep& step);
+    void look_at(NetworkId network);
+    void trace(SearchResult& result);
+
+    const GroundProblem& problem_;
+    Prices prices_;
+    SearchOptions options_;
+    Limits& limits_;
+    SearchStatistics& statistics_;
+    std::vector<bool> is_choice_;    // by TaskId: the case of an action is chosen when it is executed
+    std::vector<Cost> task_bounds_;  // by TaskId
+    Progression progression_;
+    Linearisation linearisation_;
+    OpenPreconditions open_preconditions_;
+    SegmentedArray<Node> nodes_;
+    std::vector<bool> is_known_;  // by NetworkId: the closed list
+    OpenList open_;
+    std::optional<Solution> solution_;   // the best so far
+    bool leaves_out_ = false;            // there may be plans that cost `kMostCost` or more
+    OrderedTasks tasks_;                 // of the network looked at
+    std::vector<Occurrence> compounds_;  // likewise
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,24 @@
+#ifndef RELAX_SEARCH_PLAN_TRACE_HPP
+#define RELAX_SEARCH_PLAN_TRACE_HPP
+
+#include <span>
+
+#include "relax/analysis/prices.hpp"
+#include "relax/problem/ground_problem.hpp"
+#include "relax/progression/progression.hpp"
+#include "relax/search/search_node.hpp"
+#include "relax/search/search_result.hpp"
+
+namespace relax {
+
+// Write the plan that the steps lead to from the initial state and network, its cost and its decomposition tree.
+void trace_steps(const GroundProblem& problem, const Prices& prices, Progression& progression,
+                 std::span<const SearchStep> steps, SearchResult& result);
+
+// The same for the steps that lead to a node.
+void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression,
+                const DuplicateRegistry& nodes, NodeId goal, SearchResult& result);
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,72 @@
+#ifndef RELAX_SEARCH_PORTFOLIO_HPP
+#define RELAX_SEARCH_PORTFOLIO_HPP
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "relax/analysis/prices.hpp"
+#include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/problem/ground_problem.hpp"
+#include "relax/search/search_options.hpp"
+#include "relax/search/search_result.hpp"
+#include "relax/search/stepwise_search.hpp"
+
+namespace relax {
+
+// Searches that take turns and share what they have found and proven, `SearchOptions::members`. Which one pays is not
+// to be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in milliseconds
+// what landmark cuts do not in minutes; elsewhere it is the other way round. The first one to end, ends all.
+//
+// A turn is an amount of work, not of time, so that two runs are the same. Searches with a relaxed model begin when the
+// one without has done as much as it takes to make the model. Who has proven less than another one has with as much
+// work gets a small share only.
+//
+// If a member is a greedy search, any plan is an end. It has as much work as all others together, and a start before
+// them, so that a plan comes no later than in twice the time that either would take alone.
+class Portfolio {
+public:
+    // As for FindPlans.
+    Portfolio(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+              SearchStatistics& statistics);
+
+    SearchResult run();
+
+private:
+    struct Member {
+        std::vector<SearchOptions> stages;
+        std::uint64_t preparation;                // of its models, for one stage; in units of work
+        std::deque<SearchStatistics> statistics;  // of each stage that has begun
+        std::unique_ptr<StepwiseSearch> search;   // the latest of them
+        std::uint64_t done = 0;                   // work of the earlier ones
+        bool has_given_up = false;                // in its last stage
+
+        bool is_greedy() const { return stages.front().algorithm == SearchAlgorithm::Greedy; }
+        std::uint64_t work() const { return done + (search ? preparation + search->work() : 0); }
+    };
+
+    bool take_turn(Member& member, std::uint64_t work);
+    bool begin_stage(Member& member);
+    bool find_plan();
+    bool lags(const Member& member, std::uint64_t work) const;
+    void add_up();
+    void share_bounds();
+    SearchResult gather();
+
+    const GroundProblem& problem_;
+    Prices prices_;
+    Limits& limits_;
+    SearchStatistics& statistics_;
+    std::optional<Cost> upper_bound_;
+    std::vector<Member> members_;
+    Member* greedy_ = nullptr;  // the member that is
+    Member* ended_ = nullptr;   // the member that has ended all
+    std::optional<StopReason> stop_;
+};
+
+}  // namespace relax
+
+#endif

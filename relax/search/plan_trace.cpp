@@ -1,0 +1,70 @@
+#include "relax/search/plan_trace.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "relax/base/cost.hpp"
+#include "relax/problem/state.hpp"
+
+namespace relax {
+
+void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression,
+                const DuplicateRegistry& nodes, NodeId goal, SearchResult& result) {
+    std::vector<SearchStep> steps;
+    for (NodeId id = goal; nodes[id].parent != id; id = nodes[id].parent) {
+        steps.push_back(nodes[id].step());
+    }
+    std::reverse(steps.begin(), steps.end());
+    trace_steps(problem, prices, progression, steps, result);
+}
+
+// Walk the steps once more and keep track of which task of the decomposition tree each occurrence is.
+void trace_steps(const GroundProblem& problem, const Prices& prices, Progression& progression,
+                 std::span<const SearchStep> steps, SearchResult& result) {
+    TaskNetworks& networks = progression.networks();
+    NetworkId network = progression.initial_network();
+    const StateTransition transition(problem);
+    StateBits state = transition.initial_state();
+    StateBits next(state.size());
+    std::vector<std::uint32_t> tree_node{0};  // by occurrence
+    std::vector<std::uint32_t> next_tree_node;
+    std::vector<Origin> origins;
+    result.decomposition.push_back({problem.initial_task, std::nullopt, std::nullopt, 0});
+    result.cost = 0;
+    for (const SearchStep& step : steps) {
+        const std::uint32_t here = tree_node[step.occurrence];
+        if (step.method) {
+            result.decomposition[here].method = step.method;
+            network = networks.decompose(network, step.occurrence, *step.method, &origins);
+        } else {
+            result.plan.push_back(here);
+            const TaskId action = result.decomposition[here].task;
+            result.cost = add_bounds(*result.cost, prices.actions[action]);
+            std::uint32_t due = 0;
+            for (const CostPartId part : problem.cost_parts(action)) {
+                if (transition.is_due(part, state)) {
+                    result.cost = add_bounds(*result.cost, prices.parts[part]);
+                    result.due_parts.push_back(part);
+                    ++due;
+                }
+            }
+            result.due_part_counts.push_back(due);
+            transition.apply(action, state, next);
+            state.swap(next);
+            network = networks.progress(network, step.occurrence, &origins);
+        }
+        next_tree_node.clear();
+        for (const Origin& origin : origins) {
+            if (origin.is_subtask) {
+                next_tree_node.push_back(static_cast<std::uint32_t>(result.decomposition.size()));
+                const TaskId task = problem.method_subtasks[*step.method][origin.index];
+                result.decomposition.push_back({task, std::nullopt, here, origin.index});
+            } else {
+                next_tree_node.push_back(tree_node[origin.index]);
+            }
+        }
+        tree_node.swap(next_tree_node);
+    }
+}
+
+}  // namespace relax

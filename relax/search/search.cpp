@@ -1,0 +1,57 @@
+#include "relax/search/search.hpp"
+
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "relax/search/find_plans.hpp"
+#include "relax/search/greedy_search.hpp"
+#include "relax/search/plan_based.hpp"
+#include "relax/search/portfolio.hpp"
+
+namespace relax {
+
+namespace {
+
+SearchResult finish(StepwiseSearch&& search) {
+    search.advance(std::numeric_limits<std::uint64_t>::max());
+    return search.result();
+}
+
+SearchResult search_or_throw(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                             SearchStatistics& statistics) {
+    if (options.algorithm == SearchAlgorithm::Greedy) {
+        return finish(GreedySearch(problem, std::move(prices), options, limits, statistics));
+    }
+    if (options.algorithm == SearchAlgorithm::PlanBased) {
+        return PlanBased(problem, std::move(prices), options, limits, statistics).run();
+    }
+    if (options.algorithm == SearchAlgorithm::Portfolio) {
+        return Portfolio(problem, std::move(prices), options, limits, statistics).run();
+    }
+    return finish(FindPlans(problem, std::move(prices), options, limits, statistics));
+}
+
+// The end of a search that a limit stopped while it was being prepared.
+SearchResult stopped_early(StopReason reason, const SearchStatistics& statistics) {
+    SearchResult result;
+    result.status = status_of(reason);
+    result.stop = reason;
+    result.statistics = statistics;
+    return result;
+}
+
+}  // namespace
+
+SearchResult search(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+                    SearchStatistics& statistics) {
+    try {
+        return search_or_throw(problem, std::move(prices), options, limits, statistics);
+    } catch (const Stopped& stopped) {
+        return stopped_early(stopped.reason, statistics);
+    } catch (const std::bad_alloc&) {
+        return stopped_early(StopReason::MemoryLimit, statistics);
+    }
+}
+
+}  // namespace relax
