@@ -13,7 +13,6 @@ from statehtn.core.grounding import PLAIN, ground
 from statehtn.core.heuristics import HeuristicEvaluator
 from statehtn.decomposition import (
     Kind,
-    compute_utilities,
     ground_task_decomposition_graph,
     least_risk_costs,
     paper_value,
@@ -21,6 +20,7 @@ from statehtn.decomposition import (
 )
 from statehtn.decomposition.values import least_price, paper_unit
 from statehtn.model import CostDistribution, Problem
+from statehtn.reference import compute_utilities
 from statehtn.risk import Utility, utility_for
 from tests.strategies import problems, utilities
 

@@ -17,53 +17,13 @@ import heapq
 import itertools
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 from statehtn.model.ground import GroundProblem
-from statehtn.model.plan import Plan
 from statehtn.model.status import Status
 from statehtn.reference.compute_rc_ad_heur import Heuristic, compute_rc_ad_heur
-from statehtn.reference.read_plan import Choice, Execution, read_plan
-from statehtn.reference.task_network import TaskNetwork
+from statehtn.reference.read_plan import read_plan
+from statehtn.reference.search_node import SearchNode, Solution, apply, decompose, initial_node
 from statehtn.risk import Utility
-
-
-@dataclass(frozen=True)
-class SearchNode:
-    """A search node: n.s, n.tn, n.pi and the sum of the plan's risk costs.
-
-    Args:
-        state: the facts that hold.
-        network: what is still to be done.
-        plan: the actions so far, artificial ones included.
-        choices: the methods so far.
-        cost: the risk cost of the plan so far, positive, in the domain's unit.
-        next_identifier: the first one that no task has had.
-    """
-
-    state: frozenset[int]
-    network: TaskNetwork
-    plan: tuple[Execution, ...] = ()
-    choices: tuple[Choice, ...] = ()
-    cost: float = 0.0
-    next_identifier: int = 1
-
-
-@dataclass(frozen=True)
-class Solution:
-    """How a search ended: optimal, unsolvable, or exhausted where it gave up.
-
-    Args:
-        status: one of these three.
-        plan: the plan with its decomposition.
-        risk_cost: its certainty-equivalent cost, positive, in the domain's unit.
-        expanded: the number of nodes that were expanded.
-    """
-
-    status: Status
-    plan: Plan | None = None
-    risk_cost: float | None = None
-    expanded: int = 0
 
 
 def find_plans(
@@ -87,8 +47,6 @@ def find_plans(
     Raises:
         ValueError: the problem is not plain, so that no decomposition could be read from it.
     """
-    if not problem.is_plain:
-        raise ValueError("the reference search takes plain ground problems: ground(problem, switches=PLAIN)")
     counter = itertools.count()
     fringe: list[tuple[float, int, int, float, SearchNode]] = []
     cheapest: dict[tuple[object, ...], float] = {}
@@ -103,7 +61,7 @@ def find_plans(
             cheapest[key] = node.cost
             heapq.heappush(fringe, (node.cost + h, len(node.network.tasks), next(counter), h, node))
 
-    add_and_order(SearchNode(problem.initial_state, TaskNetwork({0: problem.initial_task})))  # 1, 3
+    add_and_order(initial_node(problem))  # 1, 3
     while fringe:  # 5
         _, _, _, h, node = heapq.heappop(fringe)  # 6
         if node.cost > cheapest[(node.state, *node.network.key())]:
@@ -131,30 +89,3 @@ def successors(node: SearchNode, problem: GroundProblem, utility: Utility) -> It
         else:
             for method in problem.methods_of.get(task, ()):  # 16
                 yield decompose(node, identifier, method, problem)  # 17
-
-
-def apply(node: SearchNode, identifier: int, problem: GroundProblem, utility: Utility) -> SearchNode:
-    """Return the node after an unconstrained primitive task has been executed (`n.apply` of line 12)."""
-    task = node.network.tasks[identifier]
-    action = problem.actions[task]
-    return SearchNode(
-        action.apply(node.state),
-        node.network.without(identifier),
-        (*node.plan, Execution(identifier, task)),
-        node.choices,
-        node.cost + sum(map(utility.risk_cost, action.costs_in(node.state))),
-        node.next_identifier,
-    )
-
-
-def decompose(node: SearchNode, identifier: int, method: int, problem: GroundProblem) -> SearchNode:
-    """Return the node after an unconstrained compound task has been decomposed (`n.decompose` of line 17)."""
-    first = node.next_identifier
-    return SearchNode(
-        node.state,
-        node.network.decomposed(identifier, problem.methods[method], first),
-        node.plan,
-        (*node.choices, Choice(identifier, method, first)),
-        node.cost,
-        first + len(problem.methods[method].subtasks),
-    )

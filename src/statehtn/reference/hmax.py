@@ -1,4 +1,4 @@
-"""The max heuristic: a set of facts costs as much as its dearest fact.
+"""The max heuristic: a set of facts costs as much as its most expensive one.
 
 Source: Bonet and Geffner, "Planning as heuristic search" (2001). Admissible.
 """

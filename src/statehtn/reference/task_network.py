@@ -24,21 +24,22 @@ class TaskNetwork:
         return [identifier for identifier in self.tasks if identifier not in later]
 
     def without(self, identifier: Identifier) -> TaskNetwork:
-        """Return the network after an unconstrained task has been executed."""
+        """Return the network without a task."""
         tasks = {i: task for i, task in self.tasks.items() if i != identifier}
         return TaskNetwork(tasks, frozenset(pair for pair in self.ordering if identifier not in pair))
 
     def decomposed(self, identifier: Identifier, method: GroundMethod, first: Identifier) -> TaskNetwork:
-        """Return the network with the method's subtasks, numbered from `first`, in the place of an unconstrained task.
+        """Return the network with the method's subtasks, numbered from `first`, in the place of a task.
 
-        Source: the paper's definition of decomposition; what was ordered after the task is ordered after all subtasks.
+        Source: the paper's definition of decomposition; what was ordered before or after the task is so with all of
+        its subtasks.
         """
         subtasks = {first + index: task for index, task in enumerate(method.subtasks)}
         inner = _transitive_closure((first + i, first + j) for i, j in method.ordering)
-        after = [j for i, j in self.ordering if i == identifier]
         rest = self.without(identifier)
-        outer = {(subtask, j) for subtask in subtasks for j in after}
-        return TaskNetwork(rest.tasks | subtasks, rest.ordering | inner | outer)
+        before = {(i, subtask) for i, j in self.ordering if j == identifier for subtask in subtasks}
+        after = {(subtask, j) for i, j in self.ordering if i == identifier for subtask in subtasks}
+        return TaskNetwork(rest.tasks | subtasks, rest.ordering | before | inner | after)
 
     def key(self) -> tuple[object, ...]:
         """Return the network without its identifiers.
