@@ -133,8 +133,23 @@ def test_an_object_of_the_problem_in_the_domain() -> None:
         problem,
     )
     assert (found.objects, found.domain.constants) == ({"l": "a"}, {"k": "a"})
-    with pytest.raises(InputError, match=r"domain:1:58: unknown object 'k'"):
-        read("(:task t) (:method m :precondition (= k k) :task (t))", "(define (problem p) (:objects k - )")
+    method = "(:task t) (:method m :precondition (= k k) :task (t))"
+    with pytest.raises(InputError, match=r"domain:1:58: unknown object 'k'$"):
+        read(method, "(define (problem p) (:objects kk - object) (:htn))")
+    with pytest.raises(InputError, match=r"problem:1:33: expected a type after '-'"):
+        read(method, "(define (problem p) (:objects k - ) (:htn))")
+
+
+@pytest.mark.filterwarnings("ignore::statehtn.hddl.HddlWarning")
+def test_the_domain_may_name_an_object_with_several_types() -> None:
+    """The type that is made up for it stands in the domain."""
+    method = "(:task t) (:method m :task (t) :precondition (and (p k) (q k)))"
+    found = read_hddl_text(
+        f"(define (domain d) (:types a b) (:predicates (p ?x - a) (q ?x - b)) {method})",
+        "(define (problem p) (:objects k - a k - b) (:init (p k) (q k)) (:htn))",
+    )
+    assert (found.objects, found.domain.constants) == ({}, {"k": "a+b"})
+    assert found.domain.types.supertypes("a+b") == {"a+b", "a", "b", "object"}
 
 
 # --- declarations

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from typing import Literal
 
 from statehtn.hddl.cost_reader import TOTAL_COST
-from statehtn.hddl.diagnostics import Diagnostics, Reporter, unknown
+from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.effect_reader import EffectReader
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
 from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.network_reader import NETWORK_KEYWORDS, read_network
-from statehtn.hddl.sections import Fields, is_empty, read_header, section_name
-from statehtn.hddl.tokens import Source
+from statehtn.hddl.sections import Fields, is_empty, read_header, sorted_sections
 from statehtn.hddl.typed_lists import read_objects, read_parameters, read_types, type_after_dash, typed_list
 from statehtn.hddl.vocabulary import Kind, Scope, Vocabulary, new_name, scope_of, unreserved
-from statehtn.limits import Limits
 from statehtn.model import TRUE, Action, Domain, Formula, Method, Signature
 
 SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", ":task", ":action", ":method")
+SINGLE = (":types", ":constants", ":predicates", ":functions")
 UNSUPPORTED = {
     ":durative-action": "actions with durations are not supported",
     ":derived": "derived predicates are not supported",
@@ -36,28 +34,24 @@ ACTION_KEYWORDS = (":parameters", ":precondition", ":effect")
 METHOD_KEYWORDS = (":parameters", ":task", ":precondition", ":effect", *NETWORK_KEYWORDS)
 
 
-def read_domain(source: Source, vocabulary: Vocabulary, diagnostics: Diagnostics, limits: Limits) -> Domain:
-    """Return the domain of a file, and add its declarations to a vocabulary, for reading a problem.
+class DomainReader:
+    """Reads the file of a domain: its declarations when it is made, the rest when those of the problem are known.
+
+    Args:
+        reporter: of the file.
+        vocabulary: gets the declarations.
 
     Raises:
         InputError: with the place of the mistake.
         UnsupportedError: it uses a part of PDDL that is not supported.
     """
-    return _DomainReader(source, Reporter(source, diagnostics), limits, vocabulary).read()
 
-
-@dataclass(slots=True)
-class _DomainReader:
-    source: Source
-    reporter: Reporter
-    limits: Limits
-    vocabulary: Vocabulary
-    sections: dict[str, list[tuple[int, int]]] = field(default_factory=lambda: {name: [] for name in SECTIONS})
-
-    def read(self) -> Domain:
-        name = read_header(self.source, "domain", self.reporter)
-        self._sort_sections()
-        vocabulary = self.vocabulary
+    def __init__(self, reporter: Reporter, vocabulary: Vocabulary) -> None:
+        self.reporter = reporter
+        self.vocabulary = vocabulary
+        self.name = read_header("domain", reporter)
+        self.sections = sorted_sections(reporter, SECTIONS, UNSUPPORTED, SINGLE)
+        self._check_requirements()
         types = [entry for group in self._groups(":types") for entry in typed_list(group.items[1:], self.reporter)]
         read_types(types, vocabulary, self.reporter)
         for start, end in self.sections[":constants"]:
@@ -68,44 +62,48 @@ class _DomainReader:
             self._functions(group)
         for group in self._groups(":task"):
             self._task(group)
-        actions = [self._head(group) for group in self._groups(":action")]
+        self._actions = [self._head(group) for group in self._groups(":action")]
+
+    def read(self, problem_objects: dict[str, str]) -> Domain:
+        """Return the domain.
+
+        Args:
+            problem_objects: what the problem declares; those that the domain names become its constants, with a
+                warning.
+
+        Raises:
+            InputError: with the place of the mistake.
+            UnsupportedError: it uses a part of PDDL that is not supported.
+        """
+        vocabulary = self.vocabulary
+        vocabulary.lent = problem_objects
+        actions = {signature.name: self._action(signature, fields) for signature, fields in self._actions}
+        methods = self._methods()
+        vocabulary.lent = {}
         return Domain(
-            name,
+            self.name,
             vocabulary.types,
             vocabulary.constants,
             vocabulary.predicates,
             vocabulary.functions,
             vocabulary.tasks,
-            {signature.name: self._action(signature, fields) for signature, fields in actions},
-            self._methods(),
+            actions,
+            methods,
         )
 
-    def _sort_sections(self) -> None:
-        for start, end in self.source.sections[1:]:
-            name = section_name(self.source, start)
-            if name in UNSUPPORTED:
-                raise self.reporter.unsupported(UNSUPPORTED[name], Word(name, start))
-            if name not in self.sections:
-                raise self.source.error(unknown("section", name, SECTIONS), start)
-            self.sections[name].append((start, end))
-            if name == ":requirements":
-                self._check_requirements(start, end)
-        for name in (":types", ":constants", ":predicates", ":functions"):
-            for start, _ in self.sections[name][1:]:
-                self.reporter.warn(f"a second section '{name}'; it is added to the first", Word(name, start))
-
-    def _check_requirements(self, start: int, end: int) -> None:
+    def _check_requirements(self) -> None:
         """Refuse those that would change what the rest of the file means; the others are not insisted on."""
-        for index in range(start + 2, end - 1):
-            requirement = self.source.tokens[index].lower()
+        for index in (index for start, end in self.sections[":requirements"] for index in range(start + 2, end - 1)):
+            requirement = self.reporter.source.tokens[index].lower()
             if requirement in UNSUPPORTED_REQUIREMENTS:
                 what = UNSUPPORTED_REQUIREMENTS[requirement]
                 raise self.reporter.unsupported(f"{what} ({requirement}) are not supported", Word(requirement, index))
 
     def _groups(self, name: str) -> Iterable[Group]:
+        source = self.reporter.source
         for start, _ in self.sections[name]:
-            self.limits.check()
-            yield parse_group(self.source, start)
+            source.limits.check()
+            yield parse_group(source, start)
 
     def _predicates(self, section: Group) -> None:
         for node in section.items[1:]:
@@ -186,7 +184,7 @@ class _DomainReader:
         if name is not None:
             differing = self.vocabulary.differ_in_case(kind, name, word.text, self.reporter)
             raise self.reporter.error(f"{differing}; there is {what} '{name}' already, so expected another name", word)
-        self.vocabulary.declare(kind, (word.text,), self.source, word.index)
+        self.vocabulary.declare(kind, (word.text,), self.reporter.source, word.index)
 
     def _action(self, signature: Signature, fields: Fields) -> Action:
         scope = scope_of(signature.parameters)

@@ -9,7 +9,6 @@ from statehtn.hddl.cost_reader import TOTAL_COST, read_number
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
 from statehtn.hddl.vocabulary import Vocabulary
-from statehtn.limits import Limits
 from statehtn.model import Fact, Signature
 
 CHECK_EVERY = 4096
@@ -22,13 +21,12 @@ class InitialStateReader:
     list, which then explains what is wrong with it.
     """
 
-    def __init__(self, vocabulary: Vocabulary, reporter: Reporter, limits: Limits) -> None:
+    def __init__(self, vocabulary: Vocabulary, reporter: Reporter) -> None:
         self.facts: set[Fact] = set()
         self.values: dict[tuple[str, ...], Fraction] = {}
         self._false: list[tuple[Fact, Node]] = []
         self._vocabulary = vocabulary
         self._reporter = reporter
-        self._limits = limits
         self._objects_of: dict[tuple[str, ...], frozenset[str]] = {}
         self._predicates = self._allowed(vocabulary.predicates)
         self._functions = self._allowed(vocabulary.functions)
@@ -50,7 +48,7 @@ class InitialStateReader:
         while index < end - 1:
             countdown -= 1
             if not countdown:
-                self._limits.check()
+                self._reporter.source.limits.check()
                 countdown = CHECK_EVERY
             close = tokens.index(")", index)
             fact = tuple(tokens[index + 1 : close])

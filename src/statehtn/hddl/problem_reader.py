@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-
-from statehtn.errors import StateHtnError
 from statehtn.hddl.cost_reader import TOTAL_COST
-from statehtn.hddl.diagnostics import Diagnostics, Reporter, unknown
+from statehtn.hddl.diagnostics import Reporter
 from statehtn.hddl.expressions import Group, Word, describe, parse_group
 from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.initial_state_reader import InitialStateReader
 from statehtn.hddl.network_reader import NETWORK_KEYWORDS, read_network
-from statehtn.hddl.sections import Fields, read_header, section_name
-from statehtn.hddl.tokens import Source, shortened
+from statehtn.hddl.sections import Fields, read_header, sorted_sections
+from statehtn.hddl.tokens import shortened
 from statehtn.hddl.typed_lists import read_objects, read_parameters
 from statehtn.hddl.vocabulary import Vocabulary, scope_of
-from statehtn.limits import Limits
 from statehtn.model import TRUE, Domain, Formula, Parameter, Problem, TaskNetwork
 
 SECTIONS = (":domain", ":requirements", ":objects", ":htn", ":init", ":goal", ":metric")
@@ -32,96 +28,63 @@ UNSUPPORTED = {
 UNIQUE = (":domain", ":htn", ":goal", ":metric")
 
 
-def read_problem(
-    source: Source, domain: Domain, vocabulary: Vocabulary, diagnostics: Diagnostics, limits: Limits
-) -> Problem:
-    """Return the problem of a file.
+class ProblemReader:
+    """Reads the file of a problem: its objects when it is made, the rest when the domain is known.
 
     Args:
-        vocabulary: the domain's declarations; the problem's objects are added to them. Objects that the problem
-            declares with several types add types to the domain.
+        reporter: of the file.
+        vocabulary: the domain's declarations; gets the objects, and types for those that are declared with several.
 
     Raises:
         InputError: with the place of the mistake.
-        UnsupportedError: it asks for something that is not supported, a metric other than the total cost, say.
+        UnsupportedError: it asks for something that is not supported.
     """
-    return _ProblemReader(source, domain, vocabulary, Reporter(source, diagnostics), limits).read()
 
-
-def problem_objects(source: Source, vocabulary: Vocabulary) -> Vocabulary:
-    """Return the objects of a problem with their types, before the problem is read.
-
-    Mistakes in them end the list; they are told when the problem is read.
-    """
-    scratch = Vocabulary()
-    scratch.declare_types(vocabulary.types.parents)
-    reporter = Reporter(source, Diagnostics(strict=False))
-    with suppress(StateHtnError):
-        for start, end in source.sections:
-            if source.tokens[start + 1].lower() == ":objects":
-                read_objects(start, end, scratch, {}, reporter)
-    return scratch
-
-
-class _ProblemReader:
-    def __init__(
-        self, source: Source, domain: Domain, vocabulary: Vocabulary, reporter: Reporter, limits: Limits
-    ) -> None:
-        self.source = source
-        self.domain = domain
-        self.vocabulary = vocabulary
+    def __init__(self, reporter: Reporter, vocabulary: Vocabulary) -> None:
         self.reporter = reporter
-        self.limits = limits
-        self.sections: dict[str, list[tuple[int, int]]] = {name: [] for name in SECTIONS}
-
-    def read(self) -> Problem:
-        name = read_header(self.source, "problem", self.reporter)
-        self._sort_sections()
-        self._check_domain()
-        objects: dict[str, str] = {}
+        self.vocabulary = vocabulary
+        self.name = read_header("problem", reporter)
+        self.sections = sorted_sections(reporter, SECTIONS, UNSUPPORTED, SECTIONS, UNIQUE)
+        self.objects: dict[str, str] = {}
         for start, end in self.sections[":objects"]:
-            read_objects(start, end, self.vocabulary, objects, self.reporter)
+            read_objects(start, end, vocabulary, self.objects, reporter)
+
+    def read(self, domain: Domain) -> Problem:
+        """Return the problem.
+
+        Raises:
+            InputError: with the place of the mistake.
+            UnsupportedError: it asks for something that is not supported, a metric other than the total cost, say.
+        """
+        self._check_domain(domain)
         parameters, network = self._network()
         goal = self._goal()
         self._check_metric()
-        state = InitialStateReader(self.vocabulary, self.reporter, self.limits)
+        state = InitialStateReader(self.vocabulary, self.reporter)
         for start, end in self.sections[":init"]:
             state.read(start, end)
-        return Problem(name, self.domain, objects, parameters, network, frozenset(state.facts), state.values, goal)
-
-    def _sort_sections(self) -> None:
-        for start, end in self.source.sections[1:]:
-            word = name = section_name(self.source, start)
-            if name not in self.sections:
-                if name in UNSUPPORTED:
-                    raise self.reporter.unsupported(UNSUPPORTED[name], Word(name, start))
-                raise self.source.error(unknown("section", name, SECTIONS), start)
-            if self.sections[name]:
-                if name in UNIQUE:
-                    raise self.source.error(f"a second section '{shortened(word)}'", start)
-                self.reporter.warn(f"a second section '{name}'; it is added to the first", Word(name, start))
-            self.sections[name].append((start, end))
+        return Problem(self.name, domain, self.objects, parameters, network, frozenset(state.facts), state.values, goal)
 
     def _only(self, name: str) -> Group | None:
-        return parse_group(self.source, self.sections[name][0][0]) if self.sections[name] else None
+        return parse_group(self.reporter.source, self.sections[name][0][0]) if self.sections[name] else None
 
-    def _check_domain(self) -> None:
+    def _check_domain(self, domain: Domain) -> None:
         section = self._only(":domain")
         if section is None:
             return
         named = section.items[1] if len(section.items) == 2 else section
         if isinstance(named, Group):
             raise self.reporter.error("expected '(:domain <name>)'", section)
-        if named.lower != self.domain.name.lower():
+        if named.lower != domain.name.lower():
             self.reporter.warn(
-                f"the problem is for domain '{shortened(named.text)}', the domain is '{shortened(self.domain.name)}'",
+                f"the problem is for domain '{shortened(named.text)}', the domain is '{shortened(domain.name)}'",
                 named,
             )
 
     def _network(self) -> tuple[tuple[Parameter, ...], TaskNetwork]:
         section = self._only(":htn")
         if section is None:
-            raise self.source.error(
+            raise self.reporter.source.error(
                 "the problem has no initial task network; expected a section '(:htn :subtasks ...)'", 0
             )
         fields = Fields(section, section.items[1:], (":parameters", *NETWORK_KEYWORDS), self.reporter)

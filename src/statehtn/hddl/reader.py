@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-from functools import cache
 from os import PathLike
 
 from statehtn.collector import without_collector
-from statehtn.errors import StateHtnError, UsageError
+from statehtn.errors import UsageError
 from statehtn.expected import expect, file_name
 from statehtn.hddl.dead_ends import warn_of_dead_ends
-from statehtn.hddl.diagnostics import Diagnostics
-from statehtn.hddl.domain_reader import read_domain
-from statehtn.hddl.problem_reader import problem_objects, read_problem
+from statehtn.hddl.diagnostics import Diagnostics, Reporter
+from statehtn.hddl.domain_reader import DomainReader
+from statehtn.hddl.problem_reader import ProblemReader
 from statehtn.hddl.tokens import Source, read_text
 from statehtn.hddl.vocabulary import Vocabulary
 from statehtn.limits import Limits
@@ -50,8 +48,8 @@ def read_hddl(
     diagnostics = Diagnostics(strict)
     try:
         return _read(
-            (domain_file, read_text(domain_file, limits)),
-            (problem_file, read_text(problem_file, limits)),
+            (read_text(domain_file, limits), domain_file),
+            (read_text(problem_file, limits), problem_file),
             diagnostics,
             limits,
         )
@@ -82,7 +80,7 @@ def read_hddl_text(
         expect(text, str, f"the {what} must be a text in HDDL", "statehtn.read_hddl reads files")
     diagnostics = Diagnostics(strict)
     try:
-        return _read((str(domain_file), domain_text), (str(problem_file), problem_text), diagnostics, limits)
+        return _read((domain_text, str(domain_file)), (problem_text, str(problem_file)), diagnostics, limits)
     finally:
         diagnostics.emit(2)
 
@@ -100,20 +98,12 @@ def _file(path: str | PathLike[str], what: str) -> str:
 
 
 def _read(domain: tuple[str, str], problem: tuple[str, str], diagnostics: Diagnostics, limits: Limits) -> Problem:
-    domain_file, domain_text = domain
-    problem_file, problem_text = problem
-
-    @cache
-    def objects_of_the_problem() -> Vocabulary | None:
-        """Read them ahead; a mistake in the file is told when the file is read."""
-        with suppress(StateHtnError):
-            return problem_objects(Source(problem_text, problem_file, limits), vocabulary)
-        return None
-
-    vocabulary = Vocabulary(objects_of_the_problem)
+    """Read the declarations of both files first, as the domain may name objects of the problem, then the rest."""
+    vocabulary = Vocabulary()
     with without_collector():
-        read = read_domain(Source(domain_text, domain_file, limits), vocabulary, diagnostics, limits)
-        source = Source(problem_text, problem_file, limits)
-        whole = read_problem(source, read, vocabulary, diagnostics, limits)
+        domain_reader = DomainReader(Reporter(Source(*domain, limits), diagnostics), vocabulary)
+        source = Source(*problem, limits)
+        problem_reader = ProblemReader(Reporter(source, diagnostics), vocabulary)
+        whole = problem_reader.read(domain_reader.read(problem_reader.objects))
         warn_of_dead_ends(whole, vocabulary, source, diagnostics)
         return whole

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
@@ -82,13 +82,46 @@ def section_name(source: Source, start: int) -> str:
     return word.lower()
 
 
-def read_header(source: Source, kind: str, reporter: Reporter) -> str:
+def sorted_sections(
+    reporter: Reporter,
+    names: Iterable[str],
+    unsupported: Mapping[str, str],
+    single: Container[str],
+    unique: Container[str] = (),
+) -> dict[str, list[tuple[int, int]]]:
+    """Return the sections after the header by their names, each as its first token and the one after its last.
+
+    Args:
+        names: those that have a meaning.
+        unsupported: why others, which HDDL or PDDL has, are refused.
+        single: those that should not stand twice.
+        unique: those that must not.
+    """
+    source = reporter.source
+    found: dict[str, list[tuple[int, int]]] = {name: [] for name in names}
+    for start, end in source.sections[1:]:
+        name = section_name(source, start)
+        if name in unsupported:
+            raise reporter.unsupported(unsupported[name], Word(name, start))
+        if name not in found:
+            raise source.error(unknown("section", name, found), start)
+        if found[name]:
+            if name in unique:
+                raise source.error(f"a second section '{name}'", start)
+            if name in single:
+                reporter.warn(f"a second section '{name}'; it is added to the first", Word(name, start))
+        found[name].append((start, end))
+    return found
+
+
+def read_header(kind: str, reporter: Reporter) -> str:
     """Return the name in `(domain <name>)` or `(problem <name>)`, the first section.
 
     Raises:
         InputError: the file does not start that way; perhaps the two files are swapped.
     """
     reporter.warn_of_missing_spaces()
+    source = reporter.source
     if not source.sections:
         raise source.error(f"expected '(define ({kind} <name>) ...'", 0)
     start = source.sections[0][0]

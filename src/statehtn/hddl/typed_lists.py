@@ -169,9 +169,6 @@ def _read_other_objects(
             respelt.append((name, word))
         elif vocabulary.objects[name] != kind:
             _join_types(word, kind, vocabulary, declared, reporter)
-        elif name in vocabulary.borrowed:
-            vocabulary.borrowed.remove(name)
-            vocabulary.declare("object", (name,), reporter.source, word.index)
         else:
             repeated.append(word)
     if repeated:

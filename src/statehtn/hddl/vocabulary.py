@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
 from typing import Literal
 
@@ -27,28 +27,24 @@ class Vocabulary:
     Names are compared without case. All that this class returns, and all keys of its attributes, are spelt as they are
     declared, so that names are compared as they are wherever the problem has been read.
 
-    Args:
-        problem_objects: gives the problem's objects with their types while the domain is read, which should declare
-            what it names, but may leave that to the problem.
-
     Attributes:
         objects: the types of the constants and of the problem's objects.
-        borrowed: constants that only the problem declares.
+        lent: while the domain is read, the problem's objects: the domain should declare what it names, but may leave
+            that to the problem.
     """
 
-    def __init__(self, problem_objects: Callable[[], Vocabulary | None] = lambda: None) -> None:
+    def __init__(self) -> None:
         self._parents: dict[str, Types] = {}
         self.types = TypeHierarchy(self._parents)
         self.constants: dict[str, str] = {}
         self.objects: dict[str, str] = {}
-        self.borrowed: set[str] = set()
+        self.lent: dict[str, str] = {}
         self.predicates: dict[str, Signature] = {}
         self.functions: dict[str, Signature] = {}
         self.tasks: dict[str, Signature] = {}
         self.actions: dict[str, Signature] = {}
         self._supertypes: dict[str, frozenset[str]] = {}
         self._overlaps: dict[tuple[Types, Types], bool] = {}
-        self._problem_objects = problem_objects
         self._spellings: defaultdict[Kind, Spellings] = defaultdict(Spellings)
         self._spellings["type"].add((ROOT_TYPE,))
         self._ranges: defaultdict[Kind, list[tuple[Source, int, int]]] = defaultdict(list)
@@ -164,21 +160,13 @@ class Vocabulary:
                 known = (parameter.name for parameter in scope.values())
                 raise reporter.error(unknown("variable", node.text, known), node)
             return variable.name
-        name = self.spelling("object", node.text) or self._borrow(node, reporter)
+        name = self.spelling("object", node.text)
         if name is None:
-            raise reporter.error(unknown("object", node.text, self.objects), node)
-        return name
-
-    def _borrow(self, node: Word, reporter: Reporter) -> str | None:
-        """Make an object of the problem a constant, as it is spelt there; None if there is no such object."""
-        lender = self._problem_objects()
-        name = lender.spelling("object", node.text) if lender else None
-        if lender is None or name is None or lender.objects[name] not in self.types:
-            return None
-        reporter.warn(f"'{shortened(name)}' is an object of the problem, not a constant of the domain", node)
-        self.constants[name] = self.objects[name] = lender.objects[name]
-        self.declare("object", (name,))
-        self.borrowed.add(name)
+            known = (name for name in self.objects if name not in self.lent)
+            raise reporter.error(unknown("object", node.text, known), node)
+        if name in self.lent:
+            reporter.warn(f"'{shortened(name)}' is an object of the problem, not a constant of the domain", node)
+            self.constants[name] = self.lent.pop(name)
         return name
 
     def terms(
