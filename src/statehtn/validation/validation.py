@@ -90,24 +90,7 @@ class Validation:
 
 
 def validate(problem: Problem, plan: Plan, limits: Limits = Limits()) -> Validation:
-    """Check a plan and its decomposition against the lifted problem, and recompute its costs.
-
-    The plan is valid if
-    - every step is an instance of an action and executable in the state that the steps before it lead to, and the goal
-      holds at the end;
-    - the decomposition derives exactly the plan's steps from the initial network: every compound task by a method for
-      it, under bindings of the right types that satisfy the method's constraints (bindings that the plan leaves open
-      are solved for);
-    - the order of the steps respects the ordering of every network, also across tasks that have no steps;
-    - every method precondition holds in some state after everything ordered before the method's task has ended and
-      before the method's first subtask starts, a parent's before its children's.
-
-    The time is linear in the length of the plan where all networks are ordered totally.
-
-    Args:
-        problem: a problem, such as `read_hddl` returns.
-        plan: a plan for it, such as `statehtn.plan(problem).plan`, or `read_plan` returns.
-        limits: time and memory for it.
+    """Check a plan and its decomposition as `statehtn.validate` does, which says what makes a plan valid.
 
     Raises:
         InputError: the cost of a step is not defined (a value is missing in `:init`, say).
