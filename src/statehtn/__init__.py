@@ -17,13 +17,14 @@ from statehtn.model.status import Status
 
 if TYPE_CHECKING:
     __version__: str
-    from statehtn.attitudes import AttitudeComparison, compare_attitudes
+    from statehtn.attitudes import AttitudeComparison
     from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
     from statehtn.core.heuristics import HEURISTICS
     from statehtn.core.progress import Progress, TopProgress
-    from statehtn.core.stages import SEARCHES
+    from statehtn.core.searches import SEARCHES
+    from statehtn.found_plan import PricedStep
     from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
     from statehtn.hddl.plan_format import read_plan, write_plan
     from statehtn.interop import (
@@ -34,12 +35,11 @@ if TYPE_CHECKING:
         relax_to_pddl,
         to_unified_planning,
     )
-    from statehtn.planner import improving, plan
-    from statehtn.query import SOLVERS
-    from statehtn.result import PricedStep, Result
+    from statehtn.planner import Planner, compare_attitudes, improving, plan, top_plans
+    from statehtn.result import Result
     from statehtn.risk import Attitude, Exponential, Neutral, Utility, utility_for
+    from statehtn.settings import SOLVERS
     from statehtn.tabulate import tabulate_costs
-    from statehtn.top_planner import top_plans
     from statehtn.top_result import RankedPlan, TopPlans
     from statehtn.validation import Validation
     from statehtn.verify import validate
@@ -60,6 +60,7 @@ __all__ = [
     "Neutral",
     "Place",
     "Plan",
+    "Planner",
     "PricedStep",
     "Problem",
     "ProblemBuilder",
@@ -104,13 +105,14 @@ __all__ = [
 ]
 
 _MODULES_FOR_LATER = {
-    "attitudes": ("AttitudeComparison", "compare_attitudes"),
+    "attitudes": ("AttitudeComparison",),
     "build": ("ProblemBuilder", "chance", "equal", "exists", "forall", "when", "with_cost"),
     "build.cost_file": ("read_costs",),
     "build.cost_table": ("CostTable",),
     "core.heuristics": ("HEURISTICS",),
     "core.progress": ("Progress", "TopProgress"),
-    "core.stages": ("SEARCHES",),
+    "core.searches": ("SEARCHES",),
+    "found_plan": ("PricedStep",),
     "hddl": ("HddlWarning", "read_hddl", "read_hddl_text", "write_hddl"),
     "hddl.plan_format": ("read_plan", "write_plan"),
     "interop": (
@@ -121,12 +123,11 @@ _MODULES_FOR_LATER = {
         "relax_to_pddl",
         "to_unified_planning",
     ),
-    "planner": ("improving", "plan"),
-    "query": ("SOLVERS",),
-    "result": ("PricedStep", "Result"),
+    "planner": ("Planner", "compare_attitudes", "improving", "plan", "top_plans"),
+    "result": ("Result",),
     "risk": ("Attitude", "Exponential", "Neutral", "Utility", "utility_for"),
+    "settings": ("SOLVERS",),
     "tabulate": ("tabulate_costs",),
-    "top_planner": ("top_plans",),
     "top_result": ("RankedPlan", "TopPlans"),
     "validation": ("Validation",),
     "verify": ("validate",),

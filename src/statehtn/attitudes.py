@@ -11,14 +11,10 @@ from typing import Any
 from statehtn.display.comparison import ComparedPlan, Reason, comparison_html, comparison_text
 from statehtn.errors import UsageError
 from statehtn.expected import items, number, one_of, whole_number
-from statehtn.interrupt import OnInterrupt, check_interrupt, returned
-from statehtn.model.expect import expect_problem
-from statehtn.model.problem import Problem
+from statehtn.found_plan import PricedStep
 from statehtn.model.status import Status
-from statehtn.planner import ProgressCallback, plan
-from statehtn.query import HeuristicName, SearchName, SolverName
-from statehtn.result import PricedStep, Result
-from statehtn.risk import Attitude, AttitudeName, plan_risk_cost
+from statehtn.result import Result
+from statehtn.risk import Attitude, AttitudeName, Utility, agent_name, plan_risk_cost, utility_for
 
 Cells = tuple["PricedStep | None", ...]
 
@@ -65,10 +61,7 @@ class AttitudeComparison:
     @property
     def agents(self) -> tuple[str, ...]:
         """The names of the agents, such as `averse 0.9`."""
-        return tuple(
-            result.attitude if result.alpha is None else f"{result.attitude} {result.alpha:g}"
-            for result in self.results
-        )
+        return tuple(agent_name(result.utility) for result in self.results)
 
     @property
     def stopped(self) -> Status | None:
@@ -196,70 +189,26 @@ class AttitudeComparison:
         )
 
 
-def compare_attitudes(
-    problem: Problem,
-    alpha: float | Iterable[float] = 1.0,
-    *,
-    attitudes: Iterable[Attitude | AttitudeName] = tuple(Attitude),
-    solver: SolverName = "state",
-    heuristic: HeuristicName | None = None,
-    search: SearchName = "astar",
-    time_limit: float | None = None,
-    memory_limit: float | None = None,
-    progress: ProgressCallback | None = None,
-    interrupt: OnInterrupt = "return",
-) -> AttitudeComparison:
-    """Plan for agents of several attitudes, and compare what they do.
-
-    Args:
-        problem: a problem, such as `read_hddl` returns.
-        alpha: how much averse and seeking agents care about risk, per unit of cost; several for as many agents.
-        attitudes: some of averse, neutral and seeking.
-        solver: as for `plan`, for each agent; so are `heuristic`, `search` and `progress`.
-        time_limit: seconds for each agent.
-        memory_limit: resident memory of the whole process in MB (10^6 bytes).
-        interrupt: what a Ctrl-C does: `return` what is known by then, or `raise` a `KeyboardInterrupt` with that as its
-            argument, which ends a loop of plans, too.
-
-    An agent without a plan has a result that says why. After an interruption no further agent is asked.
+def agents_of(alpha: float | Iterable[float], attitudes: Iterable[Attitude | AttitudeName]) -> list[Utility]:
+    """Return the agents of these attitudes, with each alpha: from the most averse to the most seeking.
 
     Raises:
-        UsageError: an argument is out of its range, or there are no agents.
-        InputError, UnsupportedError: as `plan`.
+        UsageError: an attitude or an alpha is none, or there are no agents.
     """
-    expect_problem(problem)
-    check_interrupt(interrupt)
     given = items(alpha, "alpha") if isinstance(alpha, Iterable) else [alpha]
     alphas = sorted({number(value, "alpha") for value in given})
     names = [attitudes] if isinstance(attitudes, str) else items(attitudes, "'attitudes'")
     wanted = {Attitude(one_of(attitude, list(Attitude), "attitude")) for attitude in names}
-    agents: list[tuple[Attitude, float | None]] = []
+    agents: list[Utility] = []
     if Attitude.AVERSE in wanted:
-        agents += [(Attitude.AVERSE, value) for value in reversed(alphas)]
+        agents += [utility_for(Attitude.AVERSE, value) for value in reversed(alphas)]
     if Attitude.NEUTRAL in wanted:
-        agents.append((Attitude.NEUTRAL, None))
+        agents.append(utility_for(Attitude.NEUTRAL))
     if Attitude.SEEKING in wanted:
-        agents += [(Attitude.SEEKING, value) for value in alphas]
+        agents += [utility_for(Attitude.SEEKING, value) for value in alphas]
     if not agents:
         raise UsageError("there are no agents to compare; give an attitude, and alpha for averse and seeking ones")
-    results = []
-    for attitude, value in agents:
-        results.append(
-            plan(
-                problem,
-                attitude=attitude,
-                alpha=value,
-                solver=solver,
-                heuristic=heuristic,
-                search=search,
-                time_limit=time_limit,
-                memory_limit=memory_limit,
-                progress=progress,
-            )
-        )
-        if results[-1].stopped is Status.INTERRUPTED:
-            break
-    return returned(AttitudeComparison(tuple(results)), interrupt)
+    return agents
 
 
 def _names(steps: Iterable[PricedStep]) -> list[str]:

@@ -84,6 +84,13 @@ class Limits:
             None if self.memory_mb is None else max(self.memory_mb, resident_mb() + self.memory_mb / 20),
         )
 
+    def left(self) -> tuple[float | None, int | None]:
+        """Return what is left of the time, in seconds, and the memory in bytes, as the core takes them."""
+        return (
+            None if self.deadline is None else self.deadline - time.monotonic(),
+            None if self.memory_mb is None else int(self.memory_mb * 1e6),
+        )
+
     def check(self) -> None:
         """Raise `LimitReached` if the time is over or the memory is used up.
 

@@ -90,9 +90,9 @@ def validate(
 
 def _decomposed(problem: Problem, steps: Sequence[Step], limits: Limits) -> Plan | Status:
     """Search for a decomposition that has these steps in this order; return it, or how the search ended."""
-    from statehtn.planner import plan_within  # lists are rare, and the planner takes a moment to import
+    from statehtn.pipeline import any_plan  # lists are rare, and the planner takes a moment to import
 
-    result = plan_within(_following(problem, steps), limits)
+    result = any_plan(_following(problem, steps), limits)
     if result.plan is None:
         return result.status
     return Plan(

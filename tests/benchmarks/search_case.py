@@ -125,8 +125,8 @@ def search(case: Case) -> dict[str, Any]:
     outcome = find_plans(grounding, utility, heuristic=case.heuristic, limits=limits, switches=switches)
     found["search_seconds"] = time.perf_counter() - start
     found["peak_memory_mb"] = peak_memory_mb()
-    found |= {"status": outcome.status.value, "lower_bound": outcome.lower_bound, "cuts": outcome.cuts}
-    found |= {"expanded": outcome.expanded, "generated": outcome.generated, "evaluated": outcome.evaluated}
+    found |= {"status": outcome.status.value, "lower_bound": outcome.lower_bound}
+    found |= {name: getattr(outcome.effort, name) for name in ("cuts", "expanded", "generated", "evaluated")}
     if outcome.plan is not None:
         found["cost"] = outcome.lower_bound
     heuristic = "lmcut" if case.heuristic == PORTFOLIO else case.heuristic

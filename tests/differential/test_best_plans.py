@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 import statehtn
 from statehtn import Status, TopPlans, validate
 from statehtn.core.grounding import GroundingSwitches, ground
+from statehtn.core.pricing import price
 from statehtn.core.switches import SearchSwitches
 from statehtn.core.top_plans import find_top_plans
 from statehtn.limits import Limits
@@ -85,7 +86,7 @@ def test_all_plans(distinct: str, problem: Problem, utility: Utility) -> None:
         assume(False)
         raise
     keys = {key(plan, distinct) for plan in plans}
-    outcome = find_top_plans(ground(problem), utility, len(keys) + 1, distinct=distinct)
+    outcome = find_top_plans(price(ground(problem), utility), len(keys) + 1, distinct=distinct)
     assert outcome.is_all
     assert len(outcome.plans) == len(keys)
     assert {key(plan, distinct) for plan in outcome.plans} == keys
@@ -118,8 +119,7 @@ def test_refinements_keep_the_best_plans(
     switch: str,
 ) -> None:
     outcome = find_top_plans(
-        ground(problem, switches=grounding),
-        utility,
+        price(ground(problem, switches=grounding), utility),
         k,
         distinct=distinct,
         heuristic=heuristic,

@@ -13,7 +13,7 @@ from statehtn import Result, Status, validate
 from statehtn.core.grounding import GroundingSwitches, ground
 from statehtn.core.heuristics import PORTFOLIO
 from statehtn.core.search import find_plans
-from statehtn.core.stages import SEARCHES
+from statehtn.core.searches import SEARCHES
 from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
 from statehtn.model import Problem

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from statehtn import Problem, Status, read_hddl_text, validate
 from statehtn.core.grounding import ground
 from statehtn.core.search import find_plans
-from statehtn.core.stages import SEARCHES
+from statehtn.core.searches import SEARCHES
 from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
 from statehtn.risk import utility_for
@@ -145,5 +145,5 @@ def test_forced_recursion_without_end_is_a_dead_end(search: str, first: tuple[st
     assert recursion.optimum() == math.inf
     outcome = find_plans(ground(recursion.problem()), utility_for("neutral"), search=search, weight=2.0)
     assert outcome.status is Status.UNSOLVABLE
-    assert outcome.generated <= 2000  # not until sums of costs overflow
-    assert 0 < outcome.expanded <= 2000
+    assert outcome.effort.generated <= 2000  # not until sums of costs overflow
+    assert 0 < outcome.effort.expanded <= 2000

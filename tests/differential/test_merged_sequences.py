@@ -132,7 +132,7 @@ def test_merging_leaves_one_way_for_each_place() -> None:
             heuristic="tdg",
             limits=Limits.starting_now(LIMITS),
             switches=SearchSwitches(merge_sequences=merge),
-        ).expanded
+        ).effort.expanded
         for merge in (True, False)
     ]
     assert 3 * expanded[0] < expanded[1]

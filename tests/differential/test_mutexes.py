@@ -12,7 +12,7 @@ import statehtn._relax as _relax
 from statehtn import Problem, Status, read_hddl_text
 from statehtn.core.grounding import GroundingSwitches, ground
 from statehtn.core.search import find_plans
-from statehtn.core.stages import SEARCHES
+from statehtn.core.searches import SEARCHES
 from statehtn.model import GroundProblem
 from statehtn.risk import utility_for
 from tests.strategies import problems

@@ -10,7 +10,10 @@ from hypothesis import assume, given
 import statehtn
 from statehtn import Status, validate
 from statehtn.core.grounding import GroundingSwitches, ground
-from statehtn.core.plan_based import BRANCHES, PLAN_BASED_HEURISTICS, search_plans
+from statehtn.core.plan_based import BRANCHES, search_networks
+from statehtn.core.pricing import price
+from statehtn.core.search import last_of
+from statehtn.core.searches import TAKES
 from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.risk import Utility
@@ -53,19 +56,19 @@ def test_optimum_of_partially_ordered_problems(problem: Problem, utility: Utilit
 
 
 @pytest.mark.parametrize("checks_preconditions", [True, False])
-@pytest.mark.parametrize("heuristic", PLAN_BASED_HEURISTICS)
+@pytest.mark.parametrize("heuristic", TAKES["plan", "astar"])
 @given(problem=problems(), utility=utilities(), switches=grounding_switches())
 def test_refinements_keep_the_optimum(
     checks_preconditions: bool, heuristic: str, problem: Problem, utility: Utility, switches: GroundingSwitches
 ) -> None:
     optimum = brute_force(problem, utility)
-    outcome = search_plans(
-        ground(problem, switches=switches),
-        utility,
+    outcomes = search_networks(
+        price(ground(problem, switches=switches), utility),
         heuristic=heuristic,
         checks_preconditions=checks_preconditions,
         limits=Limits.starting_now(SECONDS),
     )
+    outcome = last_of(outcomes)
     assume(outcome.status is not Status.TIME_LIMIT)
     assert (outcome.plan is None) == (optimum is None)
     if outcome.plan is not None:

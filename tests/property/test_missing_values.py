@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 import statehtn
 from statehtn.model import Action, CostBlock, FunctionTerm, Number, Problem
 from statehtn.model.cost.unknown import MissingNumber
-from statehtn.query import SolverName
 from statehtn.result import Result
 from statehtn.risk import Exponential, Utility
+from statehtn.settings import SolverName
 from tests.strategies import FUNCTION, problems, utilities
 
 MISSING = (FUNCTION, "o0")

@@ -13,8 +13,8 @@ import statehtn
 from statehtn.attitudes import AttitudeComparison, _merged
 from statehtn.cli import main
 from statehtn.display.comparison import ComparedPlan, Reason, comparison_text
+from statehtn.found_plan import PricedStep
 from statehtn.model import CostDistribution
-from statehtn.result import PricedStep
 from tests.pages import ROOT
 
 AV = tuple(str(ROOT / "domains" / "av" / name) for name in ("domain.hddl", "p1.hddl"))

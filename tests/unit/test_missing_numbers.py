@@ -13,7 +13,7 @@ from statehtn.hddl import read_hddl_text
 from statehtn.model import Problem
 from statehtn.model.cost.ground_cost import CostWarning
 from statehtn.model.cost.unknown import MissingNumber
-from statehtn.query import SearchName
+from statehtn.settings import SearchName
 
 DOMAIN = """(define (domain crossing) (:types bank) (:predicates (here ?b - bank) (storm))
 (:functions (fare ?a ?b - bank) (toll ?b - bank) (risk) (delay))

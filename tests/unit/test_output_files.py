@@ -11,7 +11,11 @@ from pathlib import Path
 import pytest
 
 import statehtn
+from statehtn import Status
 from statehtn.cli import files, main
+from statehtn.limits import Limits
+from statehtn.pipeline import Session, solutions
+from statehtn.settings import Settings
 from tests.processes import start
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM, UNSOLVABLE
@@ -240,16 +244,10 @@ def test_plans_of_top_are_files_of_a_folder(inputs: list[str], capsys: Capture) 
 
 
 def test_better_plans_come_with_their_problem(tmp_path: Path) -> None:
-    from statehtn.planner import plan_files
-    from statehtn.query import Query
-
-    found: list[statehtn.Result] = []
-    result, problem = plan_files(
-        *written(tmp_path, A_PLAN_AND_NO_PROOF, ARRIVE),
-        Query.of(search="anytime"),
-        time_limit=1.0,
-        better=lambda better, _problem: found.append(better),
-    )
-    assert problem is not None
-    assert [str(step.step) for step in found[0].steps] == ["(ride)"]
-    assert result.plan is found[-1].plan
+    files = written(tmp_path, A_PLAN_AND_NO_PROOF, ARRIVE)
+    session = Session(lambda limits: statehtn.read_hddl(*files, limits=limits))
+    first, *others = solutions(session, Settings.of(search="anytime"), Limits.starting_now(1.0), every_plan=True)
+    assert session.problem is not None
+    assert [str(step.step) for step in first.steps] == ["(ride)"]
+    assert others[-1].stopped is Status.TIME_LIMIT
+    assert others[-1].plan is first.plan  # it is validated once

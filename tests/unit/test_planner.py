@@ -12,8 +12,8 @@ import time
 import pytest
 
 import statehtn
-from statehtn.core.stages import SEARCHES
-from statehtn.query import Query
+from statehtn.core.searches import SEARCHES
+from statehtn.settings import Settings
 from tests.test_minimal import DOMAIN, PROBLEM
 
 STATISTICS = {
@@ -226,8 +226,8 @@ def test_huge_limits_are_none(problem: statehtn.Problem) -> None:
 
 
 def test_every_search_has_a_heuristic_of_its_own() -> None:
-    assert [Query.of(search=search).heuristic for search in SEARCHES] == ["auto", "auto", "ff", "auto"]
-    assert Query.of(search="greedy", heuristic="tdg").heuristic == "tdg"
+    assert [Settings.of(search=search).heuristic for search in SEARCHES] == ["auto", "auto", "ff", "auto"]
+    assert Settings.of(search="greedy", heuristic="tdg").heuristic == "tdg"
 
 
 def test_greedy_search_goes_on_for_a_cheaper_plan() -> None:
@@ -245,9 +245,9 @@ def test_greedy_search_goes_on_for_a_cheaper_plan() -> None:
 
 
 def test_query_takes_the_default_weight() -> None:
-    assert Query.of(search="weighted").weight == 2.0
-    assert Query.of(search="weighted", weight=1.5).weight == 1.5
-    assert Query.of().weight == 1.0
+    assert Settings.of(search="weighted").weight == 2.0
+    assert Settings.of(search="weighted", weight=1.5).weight == 1.5
+    assert Settings.of().weight == 1.0
 
 
 def test_import_loads_nothing_but_the_standard_library() -> None:

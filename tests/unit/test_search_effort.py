@@ -6,8 +6,9 @@ import pytest
 
 from statehtn import Problem, Status, read_hddl_text, validate
 from statehtn.core.grounding import ground
+from statehtn.core.pricing import price
 from statehtn.core.search import find_plans, improving_plans
-from statehtn.core.stages import SEARCHES
+from statehtn.core.searches import SEARCHES
 from statehtn.risk import utility_for
 
 # Meetings may call further meetings, all without an order, and every one of them costs nothing but its decisions: the
@@ -33,7 +34,7 @@ def test_unordered_recursion_does_not_stall(search: str) -> None:
     assert outcome.status in (Status.OPTIMAL, Status.SOLVED)
     assert outcome.plan is not None
     assert len(outcome.plan.steps) == 2
-    assert outcome.generated <= 1000
+    assert outcome.effort.generated <= 1000
 
 
 def errands(number: int, order: str = "subtasks") -> Problem:
@@ -108,11 +109,11 @@ def chain(number: int) -> Problem:
     ("problem", "actions"), [(errands(30), 59), (doorman(8), 32), (chain(8), 16)], ids=["errands", "doorman", "chain"]
 )
 def test_unordered_tasks_are_done_one_after_the_other(search: str, problem: Problem, actions: int) -> None:
-    first = next(improving_plans(ground(problem), utility_for("neutral"), search=search))
+    first = next(improving_plans(price(ground(problem), utility_for("neutral")), search=search))
     assert first.plan is not None
     assert validate(problem, first.plan).valid
     assert len(first.plan.steps) == actions
-    assert first.generated <= 20_000
+    assert first.effort.generated <= 20_000
 
 
 def balls(number: int) -> Problem:
@@ -152,7 +153,7 @@ def test_weighted_search_asks_several_heuristics_by_default() -> None:
     assert by_cuts.plan is not None
     assert len(by_default.plan.steps) <= 2 * by_default.lower_bound
     assert by_default.lower_bound >= by_cuts.lower_bound
-    assert by_default.generated <= 20 * by_cuts.generated
+    assert by_default.effort.generated <= 20 * by_cuts.effort.generated
 
 
 @pytest.mark.parametrize("search", SEARCHES)

@@ -15,7 +15,7 @@ from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.experiments import suites
 from statehtn.experiments.run import Grid, Run
 from statehtn.experiments.suites import runs_of
-from statehtn.query import SOLVERS
+from statehtn.settings import SOLVERS
 from tests.regression.paper_tables import DOMAINS, alpha_of, rows
 from tests.test_minimal import DOMAIN, PROBLEM
 

@@ -13,9 +13,17 @@ from statehtn.core.heuristics import ADMISSIBLE
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.search import SEARCHES
 from statehtn.core.top_plans import DISTINCT
-from statehtn.query import HEURISTIC_CHOICES, SOLVERS, BranchName, HeuristicName, SearchName, SolverName
 from statehtn.risk import Attitude, AttitudeName
-from statehtn.top_planner import DistinctName, TopHeuristicName
+from statehtn.settings import (
+    HEURISTIC_CHOICES,
+    SOLVERS,
+    BranchName,
+    DistinctName,
+    HeuristicName,
+    SearchName,
+    SolverName,
+    TopHeuristicName,
+)
 
 ROOT = Path(__file__).parents[2]
 SCRIPT = """

@@ -11,13 +11,12 @@ from statehtn.cli.parser import Parser
 from statehtn.cli.streams import emit
 from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
 from statehtn.core.plan_based import BRANCHES
-from statehtn.core.stages import SEARCHES
+from statehtn.core.searches import SEARCHES, TAKES
 from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
-from statehtn.query import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
-from statehtn.top_planner import DEFAULT_TOP_HEURISTIC
+from statehtn.settings import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 
 
 class _ShowVersion(argparse.Action):
@@ -138,7 +137,7 @@ def _add_top(commands: argparse._SubParsersAction[Parser]) -> None:
         "--heuristic",
         choices=list(HEURISTICS),
         metavar=f"{{{','.join(ADMISSIBLE)}}}",  # why it takes no others, the search says itself
-        help=f"default: {DEFAULT_TOP_HEURISTIC}",
+        help=f"default: {TAKES['state', 'top'][0]}",
     )
     _add_limits(search)
     output = parser.add_argument_group("output")

@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 import json
 
-from statehtn.attitudes import compare_attitudes
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.streams import emit
 from statehtn.limits import Limits
+from statehtn.planner import compare_attitudes
 
 
 def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:

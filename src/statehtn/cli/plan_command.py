@@ -5,19 +5,22 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from functools import partial
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
-from statehtn.cli.files import OutputFile
+from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.streams import OutputError, emit, say
-from statehtn.effort import Statistics
+from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
+from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
-from statehtn.planner import no_plan, plan_files
-from statehtn.query import Query
+from statehtn.pipeline import Session, solutions
 from statehtn.result import Result
+from statehtn.risk import utility_for
+from statehtn.settings import Settings
 
 
 def run_plan(options: argparse.Namespace) -> ExitCode:
@@ -27,9 +30,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         OutputError: the plan was found and printed, but could not be written to a file.
     """
-    query = Query.of(
-        attitude=options.attitude,
-        alpha=options.alpha,
+    settings = Settings.of(
+        utility_for(options.attitude, options.alpha),
         solver=options.solver,
         heuristic=options.heuristic,
         search=options.search,
@@ -41,25 +43,18 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
     if output and output.is_stdout and options.json:
         raise UsageError("both --json and the plan of --output would go to standard output; leave out one of them")
     keeper = _PlanKeeper(output)
+    limits = Limits.starting_now(options.time_limit, options.memory_limit)
+    session = Session(partial(read_problem, options))
+    every_plan = output is not None and output.is_regular
+    result = Result(Status.INTERRUPTED, settings, Meter().read(), Status.INTERRUPTED)
     try:
         with ProgressLine(silent=options.quiet) as progress:
-            result, problem = plan_files(
-                options.domain,
-                options.problem,
-                query,
-                strict=options.strict,
-                costs=options.costs,
-                time_limit=options.time_limit,
-                memory_limit=options.memory_limit,
-                progress=progress.callback,
-                better=keeper.keep if output and output.is_regular else None,
-            )
+            for result in solutions(session, settings, limits, progress.callback, every_plan):
+                if every_plan and session.problem is not None:
+                    keeper.keep(result, session.problem)
     except KeyboardInterrupt:  # between two phases
-        if keeper.latest is None:
-            result, problem = no_plan(query, Status.INTERRUPTED, Statistics()), None
-        else:
-            result, problem = keeper.latest
-    keeper.finish(result, problem)
+        pass
+    keeper.finish(result, session.problem)
     _print(result, options, beside=output is not None and output.is_stdout)
     if keeper.failure is not None:
         raise keeper.failure
@@ -71,13 +66,11 @@ class _PlanKeeper:
 
     def __init__(self, output: OutputFile | None) -> None:
         self.output = output
-        self.latest: tuple[Result, Problem] | None = None
         self.written: Plan | None = None
         self.failure: OutputError | None = None
 
     def keep(self, result: Result, problem: Problem) -> None:
         """Write the plan of a result, unless it stands there."""
-        self.latest = result, problem
         if self.output is None or result.plan is None or result.plan is self.written:
             return
         self.failure = None

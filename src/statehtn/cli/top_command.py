@@ -5,18 +5,22 @@ from __future__ import annotations
 import argparse
 import json
 import os
+from functools import partial
 from pathlib import Path
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
-from statehtn.cli.files import STDOUT, OutputFile
+from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.streams import OutputError, emit
-from statehtn.effort import Statistics
+from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
+from statehtn.limits import Limits
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.top_planner import TopQuery, no_plans, top_plans_files
+from statehtn.pipeline import Session, solve_top
+from statehtn.risk import utility_for
+from statehtn.settings import TopSettings
 from statehtn.top_result import TopPlans
 
 
@@ -27,34 +31,21 @@ def run_top(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         OutputError: plans were found and printed, but could not be written to files.
     """
-    query = TopQuery.of(
-        options.k,
-        attitude=options.attitude,
-        alpha=options.alpha,
-        distinct=options.distinct,
-        heuristic=options.heuristic,
-    )
+    agent = utility_for(options.attitude, options.alpha)
+    settings = TopSettings.of(options.k, agent, distinct=options.distinct, heuristic=options.heuristic)
     if options.output is not None:
         _check_folder(options.output)
-    problem = None
+    limits = Limits.starting_now(options.time_limit, options.memory_limit)
+    session = Session(partial(read_problem, options))
     try:
         with ProgressLine(silent=options.quiet) as progress:
-            result, problem = top_plans_files(
-                options.domain,
-                options.problem,
-                query,
-                strict=options.strict,
-                costs=options.costs,
-                time_limit=options.time_limit,
-                memory_limit=options.memory_limit,
-                progress=progress.show_top if progress.visible else None,
-            )
+            result = solve_top(session, settings, limits, progress.show_top if progress.visible else None)
     except KeyboardInterrupt:  # between two phases
-        result = no_plans(query, Status.INTERRUPTED, Statistics())
+        result = TopPlans(Status.INTERRUPTED, settings, Meter().read(), Status.INTERRUPTED)
     failure = None
-    if options.output is not None and problem is not None and result.plans:
+    if options.output is not None and session.problem is not None and result.plans:
         try:
-            _write(result, problem, Path(options.output))
+            _write(result, session.problem, Path(options.output))
         except OutputError as error:
             failure = error  # the plans must not be lost: print them first
     _print(result, options)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 import warnings
 from bisect import bisect_right
 from dataclasses import dataclass
@@ -207,8 +206,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         switches.merge_equal,
         switches.replace_single_methods,
         switches.mutexes,
-        None if limits.deadline is None else limits.deadline - time.monotonic(),
-        None if limits.memory_mb is None else int(limits.memory_mb * 1e6),
+        *limits.left(),
     )
     if isinstance(handle, _relax.StopReason):
         raise LimitReached(STOPPED[handle])

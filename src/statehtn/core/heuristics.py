@@ -99,23 +99,13 @@ GREEDY = "ff"
 """The heuristic of greedy search where none is named."""
 
 
-def why_refused(heuristic: str, search: str) -> str | None:
-    """Return why a search that proves something does not take a heuristic; None if it does."""
-    if heuristic not in HEURISTICS or HEURISTICS[heuristic].admissible:
-        return None
-    return (
-        f"'{heuristic}' may estimate more than is true, so that {search} could not keep what it promises; take one of "
-        f"{', '.join(ADMISSIBLE)}"
-    )
-
-
 class HeuristicEvaluator:
     """A heuristic on its own, for states and networks of the caller's choice."""
 
     def __init__(self, grounding: Grounding, utility: Utility, heuristic: str) -> None:
-        costs = price(grounding, utility)
-        self._scale = Scale.first(costs.bounds())
-        self._evaluator = _relax.Evaluator(grounding.handle, costs.on(self._scale).units, HEURISTICS[heuristic].kind)
+        problem = price(grounding, utility)
+        self._scale = Scale.first(problem.bounds())
+        self._evaluator = _relax.Evaluator(grounding.handle, problem.on(self._scale).units, HEURISTICS[heuristic].kind)
 
     @property
     def model_bytes(self) -> int:

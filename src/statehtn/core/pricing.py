@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import NamedTuple
@@ -13,6 +13,7 @@ import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.scale import Scale
 from statehtn.errors import InputError
+from statehtn.limits import Limits, watched
 from statehtn.model import CostLaw
 from statehtn.risk import Exponential, Utility
 
@@ -40,7 +41,7 @@ class RiskCost(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class FoundPlan:
+class PricedTrace:
     """A plan that the core has found: the actions that it executes, the parts of costs that are due, and its cost."""
 
     trace: _relax.SearchResult
@@ -64,7 +65,7 @@ class Prices:
     has_free: bool
     """Whether a price that is positive is 0 on this scale."""
 
-    def of_plan(self, plan: FoundPlan) -> int:
+    def of_plan(self, plan: PricedTrace) -> int:
         """Return what a plan costs in units."""
         actions, parts = self.actions, self.parts
         return sum(actions[action] for action in plan.actions) + sum(parts[part] for part in plan.parts)
@@ -76,9 +77,10 @@ class Prices:
 
 
 @dataclass(frozen=True, slots=True)
-class RiskCosts:
-    """The risk costs of a ground problem's actions and of the conditional parts of their costs, by their numbers."""
+class PricedProblem:
+    """A ground problem, and what its actions and the conditional parts of their costs cost an agent, by number."""
 
+    grounding: Grounding
     actions: list[RiskCost]
     parts: list[RiskCost]
 
@@ -92,7 +94,7 @@ class RiskCosts:
         has_free = any(not units and bound for units, bound in zip(chain(actions, parts), self.bounds(), strict=True))
         return Prices(scale, actions, parts, has_free)
 
-    def of_plan(self, trace: _relax.SearchResult) -> FoundPlan:
+    def of_plan(self, trace: _relax.SearchResult) -> PricedTrace:
         """Return what a plan costs: the sum of its own prices, rounded once."""
         actions, parts = trace.actions, trace.due_parts
         prices = chain((self.actions[action] for action in actions), (self.parts[part] for part in parts))
@@ -100,44 +102,46 @@ class RiskCosts:
             cost = math.fsum(price.cost for price in prices)
         except OverflowError:
             cost = sys.float_info.max
-        return FoundPlan(trace, actions, parts, cost)
+        return PricedTrace(trace, actions, parts, cost)
 
 
-def price(grounding: Grounding, utility: Utility) -> RiskCosts:
+def price(grounding: Grounding, objective: Utility, limits: Limits = Limits()) -> PricedProblem:
     """Price actions by their risk cost (line 6 of the paper's Algorithm 5, in the additive form of its equation 10).
 
     Parts of a cost are independent, so that their risk costs add up, too: each has a price of its own.
 
     Raises:
         InputError: a cost has no finite price for this agent; the message names the action.
+        LimitReached: a limit was reached.
     """
     known: dict[int, RiskCost] = {}
 
-    def priced(laws: Iterable[CostLaw], name_of: Callable[[int], str]) -> list[RiskCost]:
+    def priced(laws: Sequence[CostLaw], name_of: Callable[[int], str]) -> list[RiskCost]:
         found: list[RiskCost] = []
         for law in laws:
             price = known.get(id(law))
             if price is None:
                 try:
-                    price = known[id(law)] = risk_cost(law, utility)
+                    price = known[id(law)] = risk_cost(law, objective)
                 except InputError as error:
                     raise InputError(f"the cost of {name_of(len(found))}: {error.message}") from None
             found.append(price)
         return found
 
-    return RiskCosts(
-        priced(grounding.laws, grounding.action_text), priced(grounding.part_laws, grounding.cost_part_text)
-    )
+    with watched(limits):
+        actions = priced(grounding.laws, grounding.action_text)
+        parts = priced(grounding.part_laws, grounding.cost_part_text)
+    return PricedProblem(grounding, actions, parts)
 
 
-def risk_cost(law: CostLaw, utility: Utility) -> RiskCost:
+def risk_cost(law: CostLaw, objective: Utility) -> RiskCost:
     """Return the price of a cost to an agent.
 
     Raises:
         InputError: it is infinite, or cannot be computed.
     """
-    cost = utility.risk_cost(law)
+    cost = objective.risk_cost(law)
     if law.least == law.most:
         return RiskCost(cost, cost)
-    integrated = law.exponential_mean_error(utility.slope) if isinstance(utility, Exponential) else 0.0
+    integrated = law.exponential_mean_error(objective.slope) if isinstance(objective, Exponential) else 0.0
     return RiskCost(cost, max(0.0, cost - ROUNDING * cost - integrated))

@@ -4,41 +4,64 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from statehtn.effort import SearchEffort
+
 
 @dataclass(frozen=True, slots=True)
-class Progress:
+class SearchProgress:
+    """How far any search has come.
+
+    Args:
+        seconds: since the search began.
+        effort: the nodes that it has dealt with.
+        lower_bound: what it has proven by now, in the domain's own unit; None for nothing.
+    """
+
+    seconds: float
+    effort: SearchEffort
+    lower_bound: float | None
+
+    @property
+    def expanded(self) -> int:
+        """Nodes whose successors were generated."""
+        return self.effort.expanded
+
+    @property
+    def generated(self) -> int:
+        """Nodes that were made."""
+        return self.effort.generated
+
+    @property
+    def evaluated(self) -> int:
+        """Nodes that the heuristic was asked about."""
+        return self.effort.evaluated
+
+
+@dataclass(frozen=True, slots=True)
+class Progress(SearchProgress):
     """How far a search has come.
 
     Args:
-        seconds: since the run began, reading and grounding included.
-        expanded: nodes whose successors were generated.
-        generated: nodes that were made.
-        evaluated: nodes that the heuristic was asked about.
+        seconds: since the search began.
+        effort: the nodes that it has dealt with.
         lower_bound: no plan has a lower risk cost, in the domain's own unit; None where none is known.
         best: the risk cost of the best plan so far; None where there is none.
     """
 
-    seconds: float
-    expanded: int
-    generated: int
-    evaluated: int
-    lower_bound: float | None
     best: float | None
 
 
 @dataclass(frozen=True, slots=True)
-class TopProgress:
+class TopProgress(SearchProgress):
     """How far a search for several plans has come.
 
-    `lower_bound` is a risk cost in the domain's own unit: all cheaper plans are among the `found`, of which the first
-    `proven` are the best there are. `seconds` count from the beginning of the run; `expanded`, `generated` and
-    `evaluated` are numbers of search nodes.
+    Args:
+        seconds: since the search began.
+        effort: the nodes that it has dealt with.
+        lower_bound: all plans of a lower risk cost, in the domain's own unit, are among those found; None for unknown.
+        found: how many plans it knows.
+        proven: the first so many of them are the best there are.
     """
 
-    seconds: float
-    expanded: int
-    generated: int
-    evaluated: int
-    lower_bound: float | None
     found: int
     proven: int

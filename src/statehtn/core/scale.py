@@ -1,6 +1,6 @@
 """Scales of fixed point: what a unit of cost is, and from which price on prices are no longer told apart.
 
-A search adds whole units. On a scale a price `p`, of which at least `q` is certain (`RiskCosts`), is `floor(q / unit)`
+A search adds whole units. On a scale a price `p`, of which at least `q` is certain (`RiskCost`), is `floor(q / unit)`
 units, or one unit more than the cap where that is less. What follows holds for every utility under which prices are
 never negative and add up along a plan, and for parts of prices that are due in some states only:
 

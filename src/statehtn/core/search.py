@@ -1,21 +1,20 @@
-"""Search in the compiled core, as one stage or several, with outcomes in the domain's own unit of cost."""
+"""State-based search in the compiled core, as one stage or several."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from typing import TypeVar
 
 from statehtn.core.grounding import Grounding
 from statehtn.core.heuristics import PORTFOLIO
-from statehtn.core.pricing import price
+from statehtn.core.pricing import PricedProblem, price
 from statehtn.core.progress import Progress
-from statehtn.core.staged_run import SearchOutcome, StagedRun
-from statehtn.core.stages import SEARCHES, core_options
+from statehtn.core.search_run import SearchOutcome
+from statehtn.core.searches import SEARCHES, core_options
+from statehtn.core.staged_run import StagedRun
 from statehtn.core.switches import SearchSwitches
-from statehtn.limits import Limits, watched
-from statehtn.model.status import Status
+from statehtn.limits import Limits
 from statehtn.risk import Utility
 
 Item = TypeVar("Item")
@@ -51,24 +50,12 @@ def find_plans(
         progress: called about every 50 ms on the calling thread.
         switches: refinements to leave out.
     """
-    return last_of(
-        improving_plans(
-            grounding,
-            utility,
-            heuristic=heuristic,
-            search=search,
-            weight=weight,
-            limits=limits,
-            progress=progress,
-            switches=switches,
-        )
-    )
+    problem = price(grounding, utility, limits)
+    return last_of(improving_plans(problem, heuristic, search, weight, limits, progress, switches))
 
 
 def improving_plans(
-    grounding: Grounding,
-    utility: Utility,
-    *,
+    problem: PricedProblem,
     heuristic: str = PORTFOLIO,
     search: str = "anytime",
     weight: float = 1.0,
@@ -80,21 +67,7 @@ def improving_plans(
 
     All but the last have the status `SOLVED`. Only `anytime` has several stages that find plans.
     """
-    with watched(limits):
-        prices = price(grounding, utility)
-    run = StagedRun(grounding, prices, limits, progress)
-    for stage in SEARCHES[search]:
-        options = core_options(stage, grounding, heuristic, weight, switches)
-        best = run.best
-        if run.stage(options):
-            break
-        if run.best is not best:
-            yield replace(run.outcome(), status=Status.SOLVED)
-    last = SEARCHES[search][-1]
-    options = core_options(last, grounding, heuristic, weight, switches)
-    while not last.finders and run.sharpen(weight):  # a search that looks for any plan proves what it can in passing
-        best = run.best
-        run.stage(options)
-        if run.best is not best:
-            yield replace(run.outcome(), status=Status.SOLVED)
-    yield run.outcome()
+    stages = SEARCHES[search]
+    options = [core_options(stage, problem.grounding, heuristic, weight, switches) for stage in stages]
+    run = StagedRun(problem, limits, progress)
+    return run.outcomes(options, weight, sharpens=not stages[-1].finders)

@@ -5,19 +5,18 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 from unified_planning.exceptions import UPUsageError
 
-from statehtn.core import heuristics as core_heuristics
-from statehtn.core.heuristics import PORTFOLIO
+from statehtn.core.searches import TAKES
 from statehtn.interop.costs import CostParts
 from statehtn.limits import Limits
-from statehtn.query import Query
-from statehtn.risk import Attitude
+from statehtn.risk import Attitude, AttitudeName, Utility, utility_for
+from statehtn.settings import Settings
 
 NAME = "statehtn"
-ADMISSIBLE = (PORTFOLIO, *core_heuristics.ADMISSIBLE)
+ADMISSIBLE = TAKES["state", "anytime"]
 """The heuristics that the engine takes: those with which it proves what it promises."""
 
 
@@ -25,8 +24,7 @@ ADMISSIBLE = (PORTFOLIO, *core_heuristics.ADMISSIBLE)
 class Parameters:
     """For whom plans are made, and how; described at `StateHtnEngine`."""
 
-    attitude: Attitude | str
-    alpha: float | None
+    objective: Utility
     heuristic: str | None
     cost_distributions: Mapping[Any, CostParts] | None
     memory_limit: float | None
@@ -48,11 +46,12 @@ class Parameters:
             raise UPUsageError(f"{NAME}: the heuristic is one of {', '.join(ADMISSIBLE)}, found '{heuristic}'")
         try:
             numbers = [None if number is None else float(number) for number in (alpha, memory_limit)]
-            Query.of(attitude, numbers[0], heuristic=heuristic)
+            objective = utility_for(cast("AttitudeName", attitude), numbers[0])
+            Settings.of(objective, heuristic=heuristic)
             Limits.starting_now(None, numbers[1])
         except ValueError as error:  # all errors of usage are
             raise UPUsageError(f"{NAME}: {error}") from None
-        return Parameters(attitude, numbers[0], heuristic, cost_distributions, numbers[1])
+        return Parameters(objective, heuristic, cost_distributions, numbers[1])
 
 
 def warn_of(unknown: Iterable[str], what: str) -> None:

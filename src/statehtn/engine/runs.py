@@ -15,10 +15,11 @@ from statehtn.counted import counted
 from statehtn.engine.parameters import NAME, Parameters
 from statehtn.errors import InternalError, StateHtnError, UsageError
 from statehtn.interop.conversion import Conversion
+from statehtn.limits import Limits
 from statehtn.model.status import Status
-from statehtn.planner import improving, plan
-from statehtn.query import SearchName
+from statehtn.pipeline import Session, solutions
 from statehtn.result import Result
+from statehtn.settings import Settings
 
 SHORTEST_SECONDS = 1e-3  # what is left to the search where converting the problem took all the time
 
@@ -68,26 +69,25 @@ class _Run:
         self.conversion = conversion
         self.has_metric = bool(conversion.up_problem.quality_metrics)
         self.optimises = self.has_metric or bool(parameters.cost_distributions)
-        self.timeout = timeout
+        self.parameters = parameters
         self.start = time.monotonic()
-        self.options: dict[str, Any] = {
-            "attitude": parameters.attitude,
-            "alpha": parameters.alpha,
-            "heuristic": parameters.heuristic,
-            "time_limit": timeout,
-            "memory_limit": parameters.memory_limit,
-            "progress": None if output_stream is None else progress_writer(output_stream),
-        }
+        self.limits = Limits.starting_now(timeout, parameters.memory_limit)
+        self.progress = None if output_stream is None else progress_writer(output_stream)
 
     def one_plan(self) -> Iterator[PlanGenerationResult]:
         """Yield an optimal plan, or any plan where nothing is to be optimised."""
-        search: SearchName = "astar" if self.optimises or self.options["heuristic"] else "greedy"
-        yield self.final(plan(self.conversion.problem, search=search, **self.options))
+        for result in self.search("astar" if self.optimises or self.parameters.heuristic else "greedy"):
+            yield self.final(result)
+
+    def search(self, search: str, every_plan: bool = False) -> Iterator[Result]:
+        """Search for a plan; yield better and better ones, if `every_plan`, and last how the run ended."""
+        settings = Settings.of(self.parameters.objective, heuristic=self.parameters.heuristic, search=search)
+        return solutions(Session(self.conversion.problem), settings, self.limits, self.progress, every_plan)
 
     def every_plan(self) -> Iterator[PlanGenerationResult]:
         """Yield every plan when it is found, and the last one with the final status."""
         latest: Result | None = None
-        for result in improving(self.conversion.problem, **self.options):
+        for result in self.search("anytime", every_plan=True):
             if result.status is Status.SOLVED and (latest is None or result.plan != latest.plan):
                 yield self.with_status(result, PlanGenerationResultStatus.INTERMEDIATE)
             latest = result

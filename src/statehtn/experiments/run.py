@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from itertools import product
+from typing import cast
 
 from statehtn.errors import UsageError
 from statehtn.limits import Limits
-from statehtn.query import Query, mismatch
+from statehtn.risk import AttitudeName, utility_for
+from statehtn.settings import Settings, mismatch
 
 Agent = tuple[str, float | None]
 """An attitude to risk and its alpha, None for neutral."""
@@ -105,8 +107,8 @@ class Grid:
             UsageError: an agent, a name or a limit makes no sense.
         """
         Limits.starting_now(self.time_limit, self.memory_limit)
-        queries = [
-            (agent, Query.of(*agent, solver, heuristic, search))
+        wanted = [
+            (agent, Settings.of(utility_for(cast("AttitudeName", agent[0]), agent[1]), solver, heuristic, search))
             for agent in self.agents or NEUTRAL
             for solver, heuristic, search in self.combinations()
             if not mismatch(solver, heuristic, search)
@@ -115,15 +117,15 @@ class Grid:
             Run(
                 instance,
                 *agent,
-                query.solver,
-                query.heuristic,
-                query.search,
+                settings.solver,
+                settings.heuristic,
+                settings.search,
                 repeat,
                 self.time_limit,
                 self.memory_limit,
             )
             for repeat, instance in product(range(1, (self.repeat or 1) + 1), instances)
-            for agent, query in queries
+            for agent, settings in wanted
         ]
         return list(dict.fromkeys(runs))
 

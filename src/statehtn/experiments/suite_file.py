@@ -7,13 +7,13 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from statehtn.core.stages import SEARCHES
+from statehtn.core.searches import SEARCHES
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import is_domain
 from statehtn.experiments.run import Grid, Instance, agents_of
 from statehtn.keyed_file import KeyedTable, read_tables
-from statehtn.query import HEURISTIC_CHOICES, SOLVERS
 from statehtn.risk import Attitude
+from statehtn.settings import HEURISTIC_CHOICES, SOLVERS
 
 Part = tuple[Grid, list[Instance]]
 """Problems, and what they are run with."""

@@ -11,7 +11,7 @@ from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import find_instances
 from statehtn.experiments.run import Agent, Grid, Instance, Run
 from statehtn.experiments.suite_file import Part, read_suite
-from statehtn.query import SOLVERS, mismatch
+from statehtn.settings import SOLVERS, mismatch
 
 DEFAULTS = Grid(repeat=1, time_limit=60.0, memory_limit=4000.0)
 """What holds where neither the user nor the suite says anything."""

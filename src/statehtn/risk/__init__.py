@@ -16,7 +16,7 @@ from statehtn.risk.expected_utility import (
 from statehtn.risk.exponential import Exponential
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.problem_class import RiskProblemClass, problem_class
-from statehtn.risk.utility import Attitude, AttitudeName, FunctionType, PlanUtility, Utility
+from statehtn.risk.utility import Attitude, AttitudeName, FunctionType, PlanUtility, Utility, agent_name
 
 __all__ = [
     "UTILITIES",
@@ -28,6 +28,7 @@ __all__ = [
     "PlanUtility",
     "RiskProblemClass",
     "Utility",
+    "agent_name",
     "expected_utility",
     "expected_utility_by_trajectories",
     "expected_utility_text",

@@ -11,7 +11,7 @@ from statehtn.experiments.report.results import Outcome
 from statehtn.experiments.run import Agent
 from statehtn.experiments.summary import SOLVED
 from statehtn.model.status import Status
-from statehtn.query import HEURISTIC_CHOICES, SOLVERS
+from statehtn.settings import HEURISTIC_CHOICES, SOLVERS
 
 BEST_TO_WORST = (
     *(Status.OPTIMAL, Status.UNSOLVABLE, Status.SOLVED, Status.EXHAUSTED),

@@ -1,14 +1,14 @@
-"""The searches by name, and the stages that each goes through."""
+"""The searches by name: the heuristics that each takes, and the stages that it goes through."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.heuristics import GREEDY, HEURISTICS, PORTFOLIO
+from statehtn.core.heuristics import ADMISSIBLE, GREEDY, HEURISTICS, PORTFOLIO
 from statehtn.core.switches import SearchSwitches
 
 
@@ -83,6 +83,26 @@ SEARCHES: Mapping[str, tuple[Stage, ...]] = MappingProxyType(
     }
 )
 """The searches by name, each as the stages that it goes through; `plan` says what they promise."""
+
+
+def _first(name: str, names: Iterable[str]) -> tuple[str, ...]:
+    return (name, *(other for other in names if other != name))
+
+
+TAKES: Mapping[tuple[str, str], tuple[str, ...]] = MappingProxyType(
+    {
+        ("state", "astar"): (PORTFOLIO, *ADMISSIBLE),
+        ("state", "weighted"): (PORTFOLIO, *ADMISSIBLE),
+        ("state", "greedy"): _first(GREEDY, HEURISTICS),
+        ("state", "anytime"): (PORTFOLIO, *ADMISSIBLE),
+        ("state", "top"): _first("potential", ADMISSIBLE),
+        ("plan", "astar"): ("tdg", "blind"),
+    }
+)
+"""The heuristics that a search of a solver takes, first the one that is taken where none is named.
+
+What proves something takes admissible ones, and what knows no state those that need none. `top` finds the best plans.
+"""
 
 
 def core_options(
