@@ -44,7 +44,7 @@ private:
 }  // namespace
 
 std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits) {
-    std::vector<Cost> bound(problem.task_count(), kNoDecomposition);
+    std::vector<Cost> bound(problem.task_count(), kInfinity);
     const Occurrences methods_with(problem, limits);
     std::vector<std::uint32_t> missing(problem.method_count());  // subtasks that have no bound yet
     std::vector<Cost> sum(problem.method_count(), 0);

@@ -90,11 +90,11 @@ void bind_lifted_problem(nb::module_& module) {
             "add_action",
             [](relax::LiftedProblem& self, Numbers parameters, std::uint32_t slot_count, Formula precondition,
                std::vector<relax::LiftedEffect> effects, std::vector<relax::LiftedCostCondition> cost_conditions,
-               bool is_artificial) {
+               bool is_precondition) {
                 self.actions.push_back({std::move(parameters), slot_count, std::move(precondition), std::move(effects),
-                                        std::move(cost_conditions), is_artificial});
+                                        std::move(cost_conditions), is_precondition});
             },
-            "parameters"_a, "slot_count"_a, "precondition"_a, "effects"_a, "cost_conditions"_a, "is_artificial"_a)
+            "parameters"_a, "slot_count"_a, "precondition"_a, "effects"_a, "cost_conditions"_a, "is_precondition"_a)
         .def(
             "add_task",
             [](relax::LiftedProblem& self, Numbers parameters) { self.tasks.push_back({std::move(parameters)}); },

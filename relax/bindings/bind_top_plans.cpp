@@ -19,11 +19,11 @@ using namespace nb::literals;
 namespace {
 
 relax::TopPlansResult top_plans(const relax::GroundProblem& problem, const relax::Prices& prices,
-                                std::vector<std::optional<relax::ActionLabel>> labels,
+                                std::vector<std::optional<relax::ActionName>> names,
                                 const relax::TopPlansOptions& options, std::optional<double> seconds,
                                 std::optional<std::size_t> memory_bytes, const nb::object& progress) {
-    if (labels.size() != problem.action_count()) {
-        throw std::invalid_argument("there must be one label for each action");
+    if (names.size() != problem.action_count()) {
+        throw std::invalid_argument("there must be one name, or none, for each action");
     }
     if (!relax::is_admissible(options.search.heuristic)) {
         throw std::invalid_argument("the heuristic must be admissible");
@@ -35,7 +35,7 @@ relax::TopPlansResult top_plans(const relax::GroundProblem& problem, const relax
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::top_plans(problem, checked(problem, prices), std::move(labels), options, limits, statistics);
+    return relax::top_plans(problem, checked(problem, prices), std::move(names), options, limits, statistics);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void bind_top_plans(nb::module_& module) {
         .def(nb::init<>())
         .def_rw("count", &relax::TopPlansOptions::count)
         .def_rw("distinct", &relax::TopPlansOptions::distinct)
-        .def_rw("limits_ways", &relax::TopPlansOptions::limits_ways)
+        .def_rw("limits_labels", &relax::TopPlansOptions::limits_labels)
         .def_rw("search", &relax::TopPlansOptions::search);
 
     nb::class_<relax::TopPlansStatistics, relax::SearchStatistics>(module, "TopPlansStatistics")
@@ -62,6 +62,6 @@ void bind_top_plans(nb::module_& module) {
         .def_ro("statistics", &relax::TopPlansResult::statistics)
         .def_ro("plans", &relax::TopPlansResult::plans);
 
-    module.def("top_plans", &top_plans, "problem"_a, "prices"_a, "labels"_a, "options"_a, "seconds"_a = nb::none(),
+    module.def("top_plans", &top_plans, "problem"_a, "prices"_a, "names"_a, "options"_a, "seconds"_a = nb::none(),
                "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
 }

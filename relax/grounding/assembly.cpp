@@ -11,7 +11,7 @@ namespace relax::grounding {
 
 namespace {
 
-// Artificial actions by what they test. They do nothing else, so that any that tests the same will do.
+// Precondition actions by their preconditions. They have no effects, so that of equal ones any will do.
 class Tests {
 public:
     // Returns the first action with these cases, which may be this one.
@@ -51,7 +51,7 @@ public:
     explicit Assembly(const Remains& remains)
         : remains_(remains),
           is_written_(remains.graph.action_node_count, false),
-          is_void_(remains.graph.action_node_count, false),
+          is_trivial_(remains.graph.action_node_count, false),
           stands_for_(remains.graph.is_node_alive.size()),
           task_of_node_(remains.graph.is_node_alive.size()) {
         std::iota(stands_for_.begin(), stands_for_.end(), 0U);
@@ -59,7 +59,7 @@ public:
 
     GroundProblem run() {
         find_cases();
-        composition_.emplace(lifted(), remains_.graph, is_void_, stands_for_, remains_.options, remains_.limits);
+        composition_.emplace(lifted(), remains_.graph, is_trivial_, stands_for_, remains_.options, remains_.limits);
         number_facts();
         write_actions();
         write_compounds();
@@ -95,13 +95,13 @@ private:
         for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
             for_each_living_node(action, [&](NodeId node) {
                 is_written_[node] = true;
-                if (lifted().actions[action].is_artificial) {
+                if (lifted().actions[action].is_precondition) {
                     const std::vector<RemainingCase> cases = remaining_cases(remains_, node);
-                    is_void_[node] = cases[0].condition.empty();
-                    if (!is_void_[node] && remains_.options.merge_equal) {
+                    is_trivial_[node] = cases[0].condition.empty();
+                    if (!is_trivial_[node] && remains_.options.merge_equal) {
                         stands_for_[node] = tests.find_or_add(node, cases);
                     }
-                    is_written_[node] = !is_void_[node] && stands_for_[node] == node;
+                    is_written_[node] = !is_trivial_[node] && stands_for_[node] == node;
                 }
             });
         }
@@ -234,7 +234,7 @@ private:
 
     const Remains& remains_;
     std::vector<bool> is_written_;    // by action node
-    std::vector<bool> is_void_;       // by action node: an artificial one that is always possible
+    std::vector<bool> is_trivial_;    // by action node: a precondition action without a condition
     std::vector<NodeId> stands_for_;  // by node: itself, or an equal one
     std::optional<Composition> composition_;
     std::vector<std::optional<FactId>> number_of_fact_;  // by fact

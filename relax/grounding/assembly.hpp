@@ -26,7 +26,7 @@ struct Remains {
 };
 
 // Write the ground problem: literals that are always true vanish, and so do
-// facts that nothing reads, artificial actions without a condition, and cases
+// facts that nothing reads, precondition actions without a condition, and cases
 // that another one contains.
 GroundProblem assemble(const Remains& remains);
 

@@ -44,7 +44,7 @@ void tidy(Effects& effects, const Conjunction& precondition) {
         made.insert(made.end(), changes.begin(), changes.end());
     }
     std::ranges::sort(made);
-    const auto is_void = [&](Literal change, bool is_conditional) {
+    const auto changes_nothing = [&](Literal change, bool is_conditional) {
         const Literal added = 2 * fact_of(change);
         if (is_negated(change) && (contains(precondition, change) || std::ranges::count(unconditional, added) > 0)) {
             return true;
@@ -60,7 +60,8 @@ void tidy(Effects& effects, const Conjunction& precondition) {
         changes.erase(repeated.begin(), repeated.end());
         const Conjunction before = changes;
         std::erase_if(changes, [&](Literal change) {
-            return is_void(change, !condition.empty()) || (is_negated(change) && contains(before, negation(change)));
+            return changes_nothing(change, !condition.empty()) ||
+                   (is_negated(change) && contains(before, negation(change)));
         });
     }
     std::erase_if(effects, [](const auto& effect) { return effect.second.empty(); });

@@ -50,11 +50,11 @@ Ordering transitive_closure(const LiftedMethod& method, Limits& limits) {
 
 }  // namespace
 
-Composition::Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_void,
+Composition::Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_trivial,
                          const std::vector<NodeId>& stands_for, const GroundingOptions& options, Limits& limits)
     : graph_(graph),
       limits_(limits),
-      is_void_(is_void),
+      is_trivial_(is_trivial),
       stands_for_(stands_for),
       is_replaced_(graph.is_node_alive.size(), false) {
     for (const LiftedMethod& method : lifted.methods) {

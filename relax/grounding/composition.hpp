@@ -34,8 +34,9 @@ struct ComposedNetwork {
 // one of the same task too, and a task with a single method gives way to the subtasks of that method.
 class Composition {
 public:
-    // `is_void`: by action node, whether it tests nothing and does nothing. `stands_for`: by action node, an equal one.
-    Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_void,
+    // `is_trivial`: by action node, whether it tests nothing and does nothing. `stands_for`: by action node, an equal
+    // one.
+    Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_trivial,
                 const std::vector<NodeId>& stands_for, const GroundingOptions& options, Limits& limits);
 
     // Whether a living compound task remains.
@@ -44,14 +45,14 @@ public:
 
 private:
     bool is_compound(NodeId node) const { return node >= graph_.action_node_count; }
-    bool vanishes(NodeId node) const { return !is_compound(node) && is_void_[node]; }
+    bool vanishes(NodeId node) const { return !is_compound(node) && is_trivial_[node]; }
     void drop_equal_methods(Limits& limits);
     void choose_replaced(Limits& limits);
     void append(MethodInstanceId method, std::uint32_t parent, std::uint32_t position, ComposedNetwork& network) const;
 
     TaskGraph& graph_;
     Limits& limits_;
-    const std::vector<bool>& is_void_;
+    const std::vector<bool>& is_trivial_;
     const std::vector<NodeId>& stands_for_;
     std::vector<Ordering> orderings_;  // by lifted method: its transitive closure
     std::vector<bool> is_replaced_;    // by node

@@ -21,7 +21,7 @@ public:
 class TdgBound final : public Heuristic {
 public:
     std::optional<Cost> evaluate(const NodeView& node) override {
-        return node.tdg_bound >= kNoDecomposition ? std::nullopt : std::optional(node.tdg_bound);
+        return node.tdg_bound >= kInfinity ? std::nullopt : std::optional(node.tdg_bound);
     }
 };
 
@@ -52,8 +52,7 @@ public:
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = slack_.evaluate(node);
-        return slack && node.tdg_bound < kNoDecomposition ? std::optional(add_bounds(node.tdg_bound, *slack))
-                                                          : std::nullopt;
+        return slack && node.tdg_bound < kInfinity ? std::optional(add_bounds(node.tdg_bound, *slack)) : std::nullopt;
     }
 
     std::uint64_t work() const override { return slack_.work(); }

@@ -8,7 +8,7 @@
 namespace relax {
 
 HMax::HMax(const RelaxedModel& model, Limits& limits)
-    : model_(model), limits_(limits), facts_(model.fact_count(), {kInfinite, 0, false}) {
+    : model_(model), limits_(limits), facts_(model.fact_count(), {kInfinity, 0, false}) {
     for (OperatorId op = 0; op < model.operator_count(); ++op) {
         limits.stop_if_reached();
         const auto row = model.preconditions[op];
@@ -57,14 +57,14 @@ std::optional<Cost> HMax::run(const RelaxedTask& task, std::span<const Cost> cos
                 state.epoch = epoch_;
                 state.missing = state.count;
             }
-            // Facts leave the queue in order of cost, so the last precondition to be reached is the dearest.
+            // Facts leave the queue in order of cost, so the last precondition to be reached is the most expensive.
             if (--state.missing == 0) {
                 reach(task, op, fact, cost_of_it, costs);
             }
         });
     }
-    const Cost dearest = find_dearest_goal(task.goals());
-    return dearest == kInfinite ? std::nullopt : std::optional(dearest);
+    const Cost most_expensive = find_most_expensive_goal(task.goals());
+    return most_expensive == kInfinity ? std::nullopt : std::optional(most_expensive);
 }
 
 Cost HMax::lower(const RelaxedTask& task, std::span<const OperatorId> operators, std::span<const Cost> costs) {
@@ -93,19 +93,19 @@ Cost HMax::lower(const RelaxedTask& task, std::span<const OperatorId> operators,
                 return;
             }
             const Cost before = state.supporter_cost;
-            support_by_dearest(task.preconditions(op), state);
+            support_by_most_expensive(task.preconditions(op), state);
             if (state.supporter_cost < before) {
                 offer_adds(op);
             }
         });
     }
-    return find_dearest_goal(task.goals());
+    return find_most_expensive_goal(task.goals());
 }
 
 // For the facts and operators of the network.
 void HMax::make_room(const RelaxedTask& task) {
     if (task.fact_count() > facts_.size()) {
-        facts_.resize(task.fact_count(), {kInfinite, 0, false});
+        facts_.resize(task.fact_count(), {kInfinity, 0, false});
     }
     const std::size_t known = model_.operator_count();
     if (task.operator_count() > operators_.size()) {
@@ -117,7 +117,8 @@ void HMax::make_room(const RelaxedTask& task) {
     }
 }
 
-// Count what the operator misses; `fact`, the latest to be reached, is its dearest precondition if that is nothing.
+// Count the preconditions that are not yet reached. If none is missing, `fact`, the latest to be reached, is the most
+// expensive one.
 void HMax::wake(const RelaxedTask& task, OperatorId op, RelaxedFact fact, Cost cost_of_it,
                 std::span<const Cost> costs) {
     OperatorState& state = operators_[op];
@@ -169,27 +170,27 @@ HMax::QueueEntry HMax::pop() {
     return entry;
 }
 
-void HMax::support_by_dearest(std::span<const RelaxedFact> preconditions, OperatorState& state) const {
-    RelaxedFact dearest = preconditions.front();
+void HMax::support_by_most_expensive(std::span<const RelaxedFact> preconditions, OperatorState& state) const {
+    RelaxedFact most_expensive = preconditions.front();
     for (const RelaxedFact fact : preconditions.subspan(1)) {
-        if (facts_[fact].cost > facts_[dearest].cost) {
-            dearest = fact;
+        if (facts_[fact].cost > facts_[most_expensive].cost) {
+            most_expensive = fact;
         }
     }
-    state.supporter = dearest;
-    state.supporter_cost = facts_[dearest].cost;
+    state.supporter = most_expensive;
+    state.supporter_cost = facts_[most_expensive].cost;
 }
 
-Cost HMax::find_dearest_goal(std::span<const RelaxedFact> goals) {
-    Cost dearest = 0;
-    dearest_goal_ = RelaxedModel::kAlwaysTrue;
+Cost HMax::find_most_expensive_goal(std::span<const RelaxedFact> goals) {
+    Cost most_expensive = 0;
+    most_expensive_goal_ = RelaxedModel::kAlwaysTrue;
     for (const RelaxedFact goal : goals) {
-        if (cost(goal) > dearest) {
-            dearest = cost(goal);
-            dearest_goal_ = goal;
+        if (cost(goal) > most_expensive) {
+            most_expensive = cost(goal);
+            most_expensive_goal_ = goal;
         }
     }
-    return dearest;
+    return most_expensive;
 }
 
 }  // namespace relax

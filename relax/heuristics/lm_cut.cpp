@@ -44,7 +44,7 @@ std::optional<Cost> LmCut::run(const RelaxedTask& task) {
 
 // Take the least cost among the cut's owners off all of them, and return it.
 Cost LmCut::take_off_cut() {
-    Cost least = HMax::kInfinite;
+    Cost least = kInfinity;
     for (const OwnerId owner : cut_) {
         least = std::min(least, costs_[owner]);
     }
@@ -58,11 +58,11 @@ Cost LmCut::take_off_cut() {
     return least;
 }
 
-// The goal zone: the dearest goal, and all supporters of free operators that achieve a fact of the zone.
+// The goal zone: the most expensive goal, and all supporters of free operators that achieve a fact of the zone.
 void LmCut::mark_goal_zone(const RelaxedTask& task) {
     entrances_.clear();
     pending_.clear();
-    put_into_goal_zone(hmax_.dearest_goal());
+    put_into_goal_zone(hmax_.most_expensive_goal());
     while (!pending_.empty()) {
         const RelaxedFact fact = pending_.back();
         pending_.pop_back();

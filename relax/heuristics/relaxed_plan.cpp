@@ -31,7 +31,7 @@ RelaxedPlan::RelaxedPlan(const RelaxedModel& model, Limits& limits)
 
 // Knuth's algorithm, as for the decomposition-graph bound.
 void RelaxedPlan::weigh_tasks() {
-    least_weight_.assign(model_.task_operators.size(), kNoDecomposition);
+    least_weight_.assign(model_.task_operators.size(), kInfinity);
     std::vector<std::vector<OperatorId>> users(least_weight_.size());  // methods, once for each distinct subtask
     std::vector<std::size_t> missing(model_.operator_count(), 0);
     std::vector<Cost> sum = weight_;

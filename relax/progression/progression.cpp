@@ -45,9 +45,9 @@ Progression::Progression(const GroundProblem& problem, Prices prices, std::vecto
       next_(transition_.word_count()),
       waits_until_due_(options.when_due && options.skip_dead_methods) {
     for (ActionId action = 0; action < problem.action_count(); ++action) {
-        is_void_.push_back(is_void(action));
+        is_executed_at_once_.push_back(costs_and_changes_nothing(action));
     }
-    if (options.use_stubborn_sets) {
+    if (options.stubborn_sets) {
         stubborn_set_.emplace(problem, limits);
     }
     if (options.forget_facts) {
@@ -127,7 +127,7 @@ bool Progression::execute_at_once(StateId state, NetworkId network, std::vector<
     networks_->unconstrained(network, unconstrained_);
     work_ += unconstrained_.size();
     for (const Occurrence& occurrence : unconstrained_) {
-        if (is_in_the_way(occurrence.task) && transition_.is_applicable(occurrence.task, states_[state])) {
+        if (is_executed_at_once(occurrence.task) && transition_.is_applicable(occurrence.task, states_[state])) {
             successors.push_back(execute(state, network, occurrence));
             return true;
         }
@@ -177,14 +177,14 @@ void Progression::choose_actions(StateId state, NetworkId network) {
     }
 }
 
-void Progression::hurry_only(const std::vector<bool>& actions) {
+void Progression::execute_at_once_only(const std::vector<bool>& actions) {
     for (ActionId action = 0; action < problem_.action_count(); ++action) {
-        is_void_[action] = is_void_[action] && actions[action];
+        is_executed_at_once_[action] = is_executed_at_once_[action] && actions[action];
     }
 }
 
 // Whether the action changes nothing, and costs nothing whatever the state is.
-bool Progression::is_void(ActionId action) const {
+bool Progression::costs_and_changes_nothing(ActionId action) const {
     return transition_.has_no_effect(action) && prices_.actions[action] == 0 &&
            std::ranges::all_of(problem_.cost_parts(action),
                                [this](CostPartId part) { return prices_.parts[part] == 0; });

@@ -4,11 +4,11 @@ namespace relax {
 
 namespace {
 
-std::uint64_t hash_cell(ActionLabel last, ActionListId before) { return mix((std::uint64_t{last} << 32) | before); }
+std::uint64_t hash_cell(ActionName last, ActionListId before) { return mix((std::uint64_t{last} << 32) | before); }
 
 }  // namespace
 
-ActionListId ActionLists::insert(ActionListId list, ActionLabel action) {
+ActionListId ActionLists::insert(ActionListId list, ActionName action) {
     later_.clear();
     for (; list != kEmpty && cells_[list].last > action; list = cells_[list].before) {
         later_.push_back(cells_[list].last);
@@ -20,7 +20,7 @@ ActionListId ActionLists::insert(ActionListId list, ActionLabel action) {
     return list;
 }
 
-ActionListId ActionLists::intern(ActionLabel last, ActionListId before) {
+ActionListId ActionLists::intern(ActionName last, ActionListId before) {
     const std::uint64_t hash = hash_cell(last, before);
     const auto known =
         table_.find(hash, [&](ActionListId id) { return cells_[id].last == last && cells_[id].before == before; });

@@ -13,8 +13,6 @@ namespace relax {
 
 namespace {
 
-constexpr Cost kDeadEnd = kNoDecomposition;
-
 constexpr std::uint32_t kMostForcedSteps = 1000;  // recursion that is forced may have no end
 
 constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
@@ -37,10 +35,10 @@ FindPlans::FindPlans(const GroundProblem& problem, Prices prices, const SearchOp
       progression_(problem, prices_, tdg_bound(problem, shift_costs(problem, prices_, limits).actions, limits),
                    progression_options(options), limits),
       nodes_(progression_.networks()) {
-    if (options.check_endings && !progression_.networks().are_totally_ordered()) {
+    if (options.endings && !progression_.networks().are_totally_ordered()) {
         ending_.emplace(problem, limits);
     }
-    const bool asks_always = !options.ask_adaptively;
+    const bool asks_always = !options.selective;
     heuristics_.emplace_back(make_heuristic(options.heuristic, problem, prices_, limits), asks_always);
     for (const HeuristicKind kind : options.more_heuristics) {
         heuristics_.emplace_back(make_heuristic(kind, problem, prices_, limits), asks_always);
@@ -73,7 +71,7 @@ bool FindPlans::advance(std::uint64_t work) {
 
 std::uint64_t FindPlans::work() const {
     std::uint64_t work = statistics_.generated * kWorkOfANode + progression_.work() + (ending_ ? ending_->work() : 0);
-    for (const AdaptiveHeuristic& heuristic : heuristics_) {
+    for (const SelectiveHeuristic& heuristic : heuristics_) {
         work += heuristic->work();
     }
     return work;
@@ -82,8 +80,8 @@ std::uint64_t FindPlans::work() const {
 // No plan that is wanted costs less than this: each that was not found goes through an open node. In the middle of an
 // expansion the open list is not complete.
 Cost FindPlans::proven() const {
-    const Cost wanted = options_.upper_bound.value_or(leaves_out_ ? kMostCost : kDeadEnd);
-    const Cost by_nodes = is_torn_ ? 0 : std::min(open_bound(), wanted);
+    const Cost wanted = options_.upper_bound.value_or(has_overflowed_ ? kMostCost : kInfinity);
+    const Cost by_nodes = is_expanding_ ? 0 : std::min(open_bound(), wanted);
     return std::max(by_nodes, std::min(statistics_.lower_bound.value_or(0), wanted));
 }
 
@@ -102,7 +100,7 @@ SearchResult FindPlans::result() {
         statistics_.best = result.cost;
         statistics_.lower_bound = std::min(bound, *result.cost);
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-    } else if (!is_done_ || stop_ || bound < options_.upper_bound.value_or(kDeadEnd)) {
+    } else if (!is_done_ || stop_ || bound < options_.upper_bound.value_or(kInfinity)) {
         statistics_.lower_bound = bound;
         result.status = stop_ ? status_of(*stop_) : SearchStatus::GaveUp;
     } else {
@@ -121,28 +119,28 @@ void FindPlans::start() {
 // Search until the best plan is as good as the algorithm promises, or nothing is open, or the work is done. Says why it
 // was stopped before that.
 std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
-    while (!open_.is_empty() && open_.top().priority < enough()) {
+    while (!open_.is_empty() && open_.top().priority < cutoff()) {
         if (work() >= most_work) {
             return std::nullopt;
         }
         if (const auto stop = limits_.check()) {
             return stop;
         }
-        const OpenList::Entry entry = open_.pop();
+        const OpenList<NodeId>::Entry entry = open_.pop();
         if (is_stale(entry)) {
             continue;
         }
         if (is_exact()) {
             statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
         }
-        is_torn_ = true;
-        const auto node = follow(entry.node);
+        is_expanding_ = true;
+        const auto node = follow(entry.id);
         if (node && priority(*node) > entry.priority) {
             push(*node);
         } else if (node && evaluate(*node, entry.priority)) {
             expand(*node);
         }
-        is_torn_ = false;
+        is_expanding_ = false;
     }
     is_done_ = true;
     return std::nullopt;
@@ -150,14 +148,14 @@ std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
 
 // The priority from which nothing that is open is worth a look. Weighted search has kept its promise then: with
 // g + weight h at least the cost of the best plan for every open node, weight (g + h) is as well.
-Cost FindPlans::enough() const {
-    return std::min(goal_ ? *statistics_.best : kDeadEnd, options_.upper_bound.value_or(kDeadEnd));
+Cost FindPlans::cutoff() const {
+    return std::min(goal_ ? *statistics_.best : kInfinity, options_.upper_bound.value_or(kInfinity));
 }
 
 // The node has been expanded, or priced anew, since the entry was made.
-bool FindPlans::is_stale(const OpenList::Entry& entry) const {
-    const SearchNode& node = nodes_[entry.node];
-    return node.is_expanded || node.h != entry.h || priority(entry.node) != entry.priority;
+bool FindPlans::is_stale(const OpenList<NodeId>::Entry& entry) const {
+    const SearchNode& node = nodes_[entry.id];
+    return node.is_expanded || node.h != entry.h || priority(entry.id) != entry.priority;
 }
 
 // Ask the heuristics that have not been asked about this pair of state and network, until one of them raises f. Returns
@@ -166,11 +164,11 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
     SearchNode& node = nodes_[id];
     if (!can_end(node)) {
         ++statistics_.dead_ends;
-        node.h = kDeadEnd;
+        node.h = kInfinity;
         return false;
     }
     while (node.heuristics_asked < heuristics_.size()) {
-        AdaptiveHeuristic& heuristic = heuristics_[node.heuristics_asked++];
+        SelectiveHeuristic& heuristic = heuristics_[node.heuristics_asked++];
         if (!heuristic.is_worth_asking()) {
             continue;
         }
@@ -181,11 +179,11 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
         heuristic.note_answer(!h || *h > node.h, work_of_a_node(heuristic));
         if (!h) {
             ++statistics_.dead_ends;
-            node.h = kDeadEnd;
+            node.h = kInfinity;
             return false;
         }
         node.h = std::max(node.h, *h);
-        if (is_too_dear(node)) {
+        if (cannot_improve(node)) {
             return false;
         }
         if (priority(id) > f) {
@@ -197,12 +195,12 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
 }
 
 // A node whose evaluation is cut short stays open.
-std::optional<Cost> FindPlans::ask(AdaptiveHeuristic& heuristic, NodeId id) {
+std::optional<Cost> FindPlans::ask(SelectiveHeuristic& heuristic, NodeId id) {
     try {
         return heuristic->evaluate(progression_.view(nodes_[id].state, nodes_[id].network));
     } catch (const Stopped&) {
         push(id);
-        is_torn_ = false;
+        is_expanding_ = false;
         throw;
     }
 }
@@ -213,7 +211,7 @@ bool FindPlans::can_end(const SearchNode& node) {
 }
 
 // What a node has cost so far on average, this heuristic left out. The first one is always worth its work.
-std::uint64_t FindPlans::work_of_a_node(const AdaptiveHeuristic& heuristic) const {
+std::uint64_t FindPlans::work_of_a_node(const SelectiveHeuristic& heuristic) const {
     if (&heuristic == &heuristics_.front()) {
         return std::uint64_t{1} << 50;
     }
@@ -254,8 +252,8 @@ void FindPlans::note_branching(NodeId id) {
 }
 
 // Go on from a node as long as there is but one way and f stays as it is. Returns where that leads, unless to a dead
-// end, a goal, in a circle, or to what is known or too dear. The nodes between are never open, and no heuristic is
-// asked about them.
+// end, a goal, in a circle, or to a node that is known or cannot improve on the best plan. The nodes between are never
+// open, and no heuristic is asked about them.
 std::optional<NodeId> FindPlans::follow(NodeId id) {
     const Cost f = priority(id);
     std::uint32_t step = 0;
@@ -274,9 +272,9 @@ std::optional<NodeId> FindPlans::follow(NodeId id) {
         id = *next;
         nodes_[id].is_forced = true;
     }
-    if (step > 0 && circle_.closes(nodes_, progression_.networks(), id)) {
+    if (step > 0 && forced_cycle_.closes(nodes_, progression_.networks(), id)) {
         ++statistics_.dead_ends;
-        nodes_[id].h = kDeadEnd;
+        nodes_[id].h = kInfinity;
         return std::nullopt;
     }
     return id;

@@ -10,12 +10,12 @@ namespace relax {
 
 namespace {
 
-constexpr Cost kDeadEnd = kNoDecomposition;
 constexpr Cost kLastPriority = kMostCost - 1;  // of what is still worth a look
 
 }  // namespace
 
-// Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.
+// Returns the successor's node, unless it is known, cannot improve on the best plan, or is a goal: a network without
+// tasks.
 std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
     const Cost g = add_bounds(nodes_[parent].g, successor.cost);
@@ -32,14 +32,14 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
     SearchNode& node = nodes_[id];
     node.reach(parent, g, successor.step);
     if (networks.is_empty(node.network)) {
-        if (!is_too_dear(node)) {
+        if (!cannot_improve(node)) {
             goal_ = id;
             statistics_.best = g;
         }
         return std::nullopt;
     }
     node.h = std::max(node.h, cheap_bound(nodes_[parent], successor));
-    return is_too_dear(node) ? std::nullopt : std::optional(id);
+    return cannot_improve(node) ? std::nullopt : std::optional(id);
 }
 
 // Whether a known node is as good as reaching another network of its form at cost g: once the actions are executed that
@@ -54,7 +54,7 @@ bool FindPlans::is_as_good(const SearchNode& known, Cost g, NetworkId network) {
 
 Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor) {
     Cost bound = 0;
-    if (options_.use_tdg_bound && options_.heuristic != HeuristicKind::Blind) {
+    if (options_.tdg_bound && options_.heuristic != HeuristicKind::Blind) {
         bound = progression_.networks().bound(successor.network);
     }
     if (options_.inherit_h) {
@@ -67,27 +67,27 @@ Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor
 // more than can be told apart.
 bool FindPlans::is_beyond(Cost g, Cost h) {
     const Cost f = add_bounds(g, h);
-    leaves_out_ = leaves_out_ || f == kMostCost;
+    has_overflowed_ = has_overflowed_ || f == kMostCost;
     return f >= kMostCost;
 }
 
 // No plan through this node is better than what is known.
-bool FindPlans::is_too_dear(const SearchNode& node) {
+bool FindPlans::cannot_improve(const SearchNode& node) {
     const Cost f = add_bounds(node.g, node.h);
     return is_beyond(node.g, node.h) || (options_.upper_bound && f >= *options_.upper_bound) ||
            (statistics_.best && f >= *statistics_.best);
 }
 
 // What is open has g + h below `kMostCost`. A large weight changes the order only: it drops nothing. The last priority
-// is at most g + weight h and at least g + h, as every priority is. So the promise of `enough` holds with it, and what
-// is popped is never too dear.
+// is at most g + weight h and at least g + h, as every priority is. So the promise of `cutoff` holds with it, and what
+// is popped can always improve on the best plan.
 Cost FindPlans::priority(NodeId id) const {
     const SearchNode& node = nodes_[id];
     if (options_.algorithm == SearchAlgorithm::AStar) {
         return node.g + node.h;
     }
-    if (node.h >= kDeadEnd) {
-        return kDeadEnd;
+    if (node.h >= kInfinity) {
+        return kInfinity;
     }
     const double product = std::ceil(options_.weight * static_cast<double>(node.h));
     const Cost weighted = product < static_cast<double>(kLastPriority) ? static_cast<Cost>(product) : kLastPriority;
@@ -101,9 +101,9 @@ void FindPlans::push(NodeId id) {
 
 // The least cost that a plan through an open node can have.
 Cost FindPlans::open_bound() const {
-    Cost bound = kDeadEnd;
-    for (const OpenList::Entry& entry : open_.entries()) {
-        const SearchNode& node = nodes_[entry.node];
+    Cost bound = kInfinity;
+    for (const OpenList<NodeId>::Entry& entry : open_.entries()) {
+        const SearchNode& node = nodes_[entry.id];
         if (!node.is_expanded) {
             bound = std::min(bound, node.g + node.h);
         }

@@ -71,7 +71,7 @@ SearchResult GreedySearch::result() {
         statistics_.lower_bound = std::min(proven_, *result.cost);
     } else if (stop_) {
         result.status = status_of(*stop_);
-    } else if (!is_done_ || leaves_out_ || options_.in_sequence || statistics_.evaluated >= most_evaluations_) {
+    } else if (!is_done_ || has_overflowed_ || options_.in_sequence || statistics_.evaluated >= most_evaluations_) {
         result.status = SearchStatus::GaveUp;
     } else {
         result.status = SearchStatus::Unsolvable;
@@ -130,10 +130,10 @@ NodeId GreedySearch::pop() {
     }
     if (open_.is_empty() || (!preferred_.is_empty() && preferred_turns_ <= turns_)) {
         ++preferred_turns_;
-        return preferred_.pop().node;
+        return preferred_.pop().id;
     }
     ++turns_;
-    return open_.pop().node;
+    return open_.pop().id;
 }
 
 // Expand the node and go on as long as there is a single successor. Returns the node where there are several, which
@@ -152,7 +152,7 @@ std::optional<NodeId> GreedySearch::follow(NodeId node) {
             return std::nullopt;
         }
         if (steps == kLongestWalk || limits_.check()) {
-            return circle_.closes(nodes_, progression_.networks(), node) ? std::nullopt : std::optional(node);
+            return forced_cycle_.closes(nodes_, progression_.networks(), node) ? std::nullopt : std::optional(node);
         }
         const auto next = generate(node, successors_.front());
         if (!next) {
@@ -171,12 +171,13 @@ std::optional<Cost> GreedySearch::evaluate(NodeId id) {
     return h;
 }
 
-// Returns the successor's node, unless it is known, too dear, or a goal: a network without tasks.
+// Returns the successor's node, unless it is known, cannot improve on the best plan, or is a goal: a network without
+// tasks.
 std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
     const Cost g = add_bounds(nodes_[parent].g, successor.cost);
     if (g >= kMostCost) {
-        leaves_out_ = true;
+        has_overflowed_ = true;
         return std::nullopt;
     }
     if (const auto known = nodes_.find(successor.state, successor.network)) {

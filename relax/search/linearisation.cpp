@@ -8,7 +8,7 @@ namespace relax {
 
 std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::optional<StopReason>& stop) {
     ++call_;
-    open_ = OpenList();
+    open_ = {};
     met_.clear();
     reach(0, 0, {progression_.initial_state(), network, 0, {}});
     while (!open_.is_empty()) {
@@ -16,7 +16,7 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
         if (stop) {
             return std::nullopt;
         }
-        const NodeId here = open_.pop().node;
+        const NodeId here = open_.pop().id;
         if (nodes_[here].is_expanded) {
             continue;
         }
@@ -37,7 +37,7 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
 
 void Linearisation::reach(NodeId from, Cost g, const Successor& successor) {
     if (g >= kMostCost) {
-        leaves_out_ = true;
+        has_overflowed_ = true;
         return;
     }
     const auto known = nodes_.find(successor.state, successor.network);

@@ -75,7 +75,7 @@ SearchResult PlanBased::run() {
         result.status = stop ? SearchStatus::Solved : SearchStatus::Optimal;
     } else if (stop) {
         result.status = status_of(*stop);
-    } else if ((leaves_out_ || linearisation_.leaves_out()) && !options_.upper_bound) {
+    } else if ((has_overflowed_ || linearisation_.has_overflowed()) && !options_.upper_bound) {
         statistics_.lower_bound = kMostCost;
         result.status = SearchStatus::GaveUp;
     } else {
@@ -97,7 +97,7 @@ std::optional<StopReason> PlanBased::search() {
         if (solution_ && solution_->cost <= open_.top().priority) {
             return std::nullopt;
         }
-        const NodeId here = open_.pop().node;
+        const NodeId here = open_.pop().id;
         look_at(nodes_[here].network);
         if (!compounds_.empty()) {
             expand(here);
@@ -153,12 +153,12 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
     for (const Occurrence& occurrence : compounds_) {
         h = add_bounds(h, task_bounds_[occurrence.task]);
     }
-    if (h >= kNoDecomposition || (options_.checks_preconditions && !open_preconditions_.can_be_met(tasks_))) {
+    if (h >= kInfinity || (options_.checks_preconditions && !open_preconditions_.can_be_met(tasks_))) {
         ++statistics_.dead_ends;
         return;
     }
     if (f >= kMostCost) {
-        leaves_out_ = true;
+        has_overflowed_ = true;
         return;
     }
     if (options_.upper_bound && f >= *options_.upper_bound) {
@@ -175,7 +175,7 @@ std::optional<StopReason> PlanBased::execute(NodeId node) {
     std::optional<StopReason> stop;
     auto order = linearisation_.find(nodes_[node].network, stop);
     if (order) {
-        if (order->cost < (solution_ ? solution_->cost : options_.upper_bound.value_or(kNoDecomposition))) {
+        if (order->cost < (solution_ ? solution_->cost : options_.upper_bound.value_or(kInfinity))) {
             solution_ = {node, order->cost, std::move(order->steps)};
             statistics_.best = solution_->cost;
         }

@@ -8,8 +8,8 @@
 
 namespace relax {
 
-void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression,
-                const DuplicateRegistry& nodes, NodeId goal, SearchResult& result) {
+void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression, const SearchSpace& nodes,
+                NodeId goal, SearchResult& result) {
     std::vector<SearchStep> steps;
     for (NodeId id = goal; nodes[id].parent != id; id = nodes[id].parent) {
         steps.push_back(nodes[id].step());

@@ -173,8 +173,7 @@ SearchResult Portfolio::gather() {
     Cost bound = 0;
     if (ended_ != nullptr && ended_->search) {
         result = ended_->search->result();
-        bound =
-            result.statistics.lower_bound.value_or(result.status == SearchStatus::Unsolvable ? kNoDecomposition : 0);
+        bound = result.statistics.lower_bound.value_or(result.status == SearchStatus::Unsolvable ? kInfinity : 0);
     } else {
         result.status = SearchStatus::GaveUp;
     }

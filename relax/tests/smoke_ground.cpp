@@ -50,7 +50,7 @@ relax::LiftedProblem line(std::uint32_t places) {
     light.effects = {{{}, {}, lit, {0}, true}};
     relax::LiftedAction arrived;
     arrived.precondition = atom(at, {~static_cast<relax::Term>(places - 1)});
-    arrived.is_artificial = true;
+    arrived.is_precondition = true;
     problem.actions = {walk, light, arrived};
 
     problem.tasks = {{{0}}, {{}}};

@@ -132,7 +132,7 @@ def any_plan(problem: Problem, limits: Limits) -> Result:
     """Find any plan, or prove that there is none."""
     session = Session(problem)
     result = solve(session, Settings.of(search="greedy"), limits)
-    return solve(session, Settings.of(), limits) if result.status is Status.EXHAUSTED else result
+    return solve(session, Settings.of(), limits) if result.status is Status.GAVE_UP else result
 
 
 def solve_top(

@@ -106,7 +106,7 @@ def test_all_plans(distinct: str, problem: Problem, utility: Utility) -> None:
     heuristic=st.sampled_from(ADMISSIBLE),
     grounding=grounding_switches(),
     switch=st.sampled_from(
-        ("tdg_bound", "inherit_h", "skip_dead_methods", "stubborn_sets", "forget_facts", "limits_ways")
+        ("tdg_bound", "inherit_h", "skip_dead_methods", "stubborn_sets", "forget_facts", "limits_labels")
     ),
 )
 def test_refinements_keep_the_best_plans(
@@ -124,8 +124,8 @@ def test_refinements_keep_the_best_plans(
         distinct=distinct,
         heuristic=heuristic,
         limits=Limits.starting_now(SECONDS),
-        switches=SearchSwitches() if switch == "limits_ways" else SearchSwitches(**{switch: False}),
-        limits_ways=switch != "limits_ways",
+        switches=SearchSwitches() if switch == "limits_labels" else SearchSwitches(**{switch: False}),
+        limits_labels=switch != "limits_labels",
     )
     assume(outcome.stopped is None)
     costs = [validate(problem, plan).risk_cost(utility) for plan in outcome.plans]

@@ -26,7 +26,7 @@ ATTITUDES = [("neutral", None), ("averse", 0.1), ("averse", 0.9), ("seeking", 0.
 def test_same_optimum(heuristic: Heuristic, problem: Problem, utility: Utility) -> None:
     model = ground(problem, switches=PLAIN).to_model()
     solution = find_plans(model, utility, heuristic, most_expansions=MOST_EXPANSIONS)
-    assume(solution.status is not Status.EXHAUSTED)
+    assume(solution.status is not Status.GAVE_UP)
     result = solve_or_drop(problem, utility)
     assert solution.status is result.status
     if solution.plan is not None:
@@ -74,6 +74,6 @@ def test_every_expanded_node_can_be_visited(p1: Problem) -> None:
 
 def test_it_gives_up_when_told_to(p1: Problem) -> None:
     solution = find_plans(ground(p1, switches=PLAIN).to_model(), utility_for("neutral"), blind, most_expansions=3)
-    assert solution.status is Status.EXHAUSTED
+    assert solution.status is Status.GAVE_UP
     assert solution.plan is None
     assert solution.expanded == 3

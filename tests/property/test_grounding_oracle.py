@@ -28,7 +28,7 @@ def read(grounding: Grounding) -> NaiveGrounding:
         return tuple(name(task) for task in method.subtasks if name(task)[0] in {*domain.actions, *domain.tasks})
 
     return NaiveGrounding(
-        frozenset((action.name, *action.arguments) for action in model.actions if not action.is_artificial),
+        frozenset((action.name, *action.arguments) for action in model.actions if not action.is_precondition),
         frozenset(task for task in model.tasks if task[0] in domain.tasks),
         frozenset(
             Decompositions(method.name, name(method.task), subtasks(method))
@@ -54,7 +54,7 @@ def test_ground_problem_is_well_formed(problem: Problem, switches: GroundingSwit
     read_facts: set[int] = set()
     for action in model.actions:
         assert action.precondition.isdisjoint(action.negative_precondition)
-        assert not action.is_artificial or action.precondition or action.negative_precondition
+        assert not action.is_precondition or action.precondition or action.negative_precondition
         read_facts |= action.precondition | action.negative_precondition
         for part in action.cost_parts:
             assert part.alternatives
@@ -89,7 +89,7 @@ def test_cases_mean_what_the_action_says(problem: Problem, generator: random.Ran
     model = ground(problem, switches=PLAIN).to_model()
     cases: dict[GroundTask, list[GroundAction]] = {}
     for action in model.actions:
-        if not action.is_artificial:
+        if not action.is_precondition:
             cases.setdefault((action.name, *action.arguments), []).append(action)
     assume(cases)
     semantics = Semantics(problem)

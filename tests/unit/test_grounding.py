@@ -120,10 +120,10 @@ def test_method_precondition_first_and_goal_last() -> None:
     names = [found.actions[task].name for task in hop.subtasks]
     assert names == ["precondition of hop", "splash", "move"]
     assert hop.ordering == ((0, 1), (0, 2))
-    guard = found.actions[hop.subtasks[0]]
-    assert guard.is_artificial
-    assert not guard.effects
-    assert facts(found, guard.negative_precondition) == {("wet", "l1")}
+    action = found.actions[hop.subtasks[0]]
+    assert action.is_precondition
+    assert not action.effects
+    assert facts(found, action.negative_precondition) == {("wet", "l1")}
 
 
 def test_order_through_a_precondition_that_is_always_true_is_kept() -> None:
@@ -385,8 +385,8 @@ def test_a_task_that_stands_in_a_method_many_times_is_joined_once() -> None:
     assert ground(lifted, Limits.starting_now(30)).handle.method_count == 3
 
 
-def test_a_guard_is_instantiated_only_for_what_fixed_facts_allow() -> None:
-    """Each of 40 places may be wet: without the roads there would be 40^4 guards, in half a gigabyte."""
+def test_a_precondition_is_instantiated_only_for_what_fixed_facts_allow() -> None:
+    """Each of 40 places may be wet: without the roads there would be 40^4 of them, in half a gigabyte."""
     places = range(40)
     lifted = problem(
         """(:task go :parameters ())

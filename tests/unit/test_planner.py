@@ -272,3 +272,9 @@ def test_import_loads_nothing_but_the_standard_library() -> None:
     }
     assert "model" in own
     assert own.isdisjoint(later)
+
+
+def test_the_old_name_of_a_status_warns_of_the_new_one() -> None:
+    with pytest.warns(DeprecationWarning, match="GAVE_UP"):
+        status = getattr(statehtn.Status, "EXHAUSTED")  # noqa: B009 - not known to type checkers
+    assert status is statehtn.Status.GAVE_UP

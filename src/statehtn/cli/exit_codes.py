@@ -14,7 +14,7 @@ class ExitCode(IntEnum):
     INVALID_PLAN = 1
     USAGE = 2
     UNSOLVABLE = 10
-    EXHAUSTED = 12
+    GAVE_UP = 12
     TIME_LIMIT = 20
     MEMORY_LIMIT = 21
     INPUT_ERROR = 30
@@ -29,7 +29,7 @@ EXIT_CODES: dict[Status, ExitCode] = {
     Status.OPTIMAL: ExitCode.SUCCESS,
     Status.SOLVED: ExitCode.SUCCESS,
     Status.UNSOLVABLE: ExitCode.UNSOLVABLE,
-    Status.EXHAUSTED: ExitCode.EXHAUSTED,
+    Status.GAVE_UP: ExitCode.GAVE_UP,
     Status.TIME_LIMIT: ExitCode.TIME_LIMIT,
     Status.MEMORY_LIMIT: ExitCode.MEMORY_LIMIT,
     Status.INTERRUPTED: ExitCode.INTERRUPTED,

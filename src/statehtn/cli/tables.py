@@ -33,7 +33,7 @@ ENDINGS = {
     Status.OPTIMAL: "optimal: no plan of this problem has a higher expected utility",
     Status.SOLVED: "solved: there may be a better plan",
     Status.UNSOLVABLE: "unsolvable: it is proven that this problem has no plan",
-    Status.EXHAUSTED: "exhausted: the search found no plan, but it does not look everywhere; there may be one",
+    Status.GAVE_UP: "exhausted: the search found no plan, but it does not look everywhere; there may be one",
     Status.TIME_LIMIT: "time limit reached before a plan was found",
     Status.MEMORY_LIMIT: "memory limit reached before a plan was found",
     Status.INTERRUPTED: "interrupted before a plan was found",

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import statehtn._relax as _relax
-from statehtn.core.schemes import INITIAL_TASK, Guard, Scheme, method_schemes
+from statehtn.core.schemes import INITIAL_TASK, PreconditionAction, Scheme, method_schemes
 from statehtn.model import (
     Action,
     And,
@@ -33,7 +33,7 @@ Kind = _relax.FormulaKind
 class Encoding:
     """A lifted problem in numbers, and what the numbers mean.
 
-    `actions` and `schemes` are by the core's schema numbers; artificial actions are None.
+    `actions` and `schemes` are by the core's schema numbers; precondition actions are None.
     """
 
     problem: Problem
@@ -83,9 +83,9 @@ class _Encoder:
 
     def run(self, split: bool) -> Encoding:
         problem, domain, result = self.problem, self.problem.domain, self.result
-        guards, result.schemes = method_schemes(problem, split)
-        result.actions = [*domain.actions.values(), *(None for _ in guards)]
-        result.action_names = [*domain.actions, *(guard.name for guard in guards)]
+        precondition_actions, result.schemes = method_schemes(problem, split)
+        result.actions = [*domain.actions.values(), *(None for _ in precondition_actions)]
+        result.action_names = [*domain.actions, *(action.name for action in precondition_actions)]
         tasks = {name: signature.parameters for name, signature in domain.tasks.items()}
         for scheme in result.schemes:
             if scheme.is_part:
@@ -97,8 +97,8 @@ class _Encoder:
 
         for action in domain.actions.values():
             self.add_action(action)
-        for guard in guards:
-            self.add_guard(guard)
+        for precondition_action in precondition_actions:
+            self.add_precondition_action(precondition_action)
         for parameters in tasks.values():
             self.handle.add_task(self.domains_of(parameters))
         for scheme in result.schemes:
@@ -135,11 +135,11 @@ class _Encoder:
                 costs.append(_relax.LiftedCostCondition(index, variables, condition))
         self.handle.add_action(self.domains_of(action.parameters), scope.count, precondition, effects, costs, False)
 
-    def add_guard(self, guard: Guard) -> None:
-        """Add an artificial action that only tests a condition."""
-        scope = _Scope(guard.parameters)
-        precondition = self.formula(guard.condition, scope)
-        self.handle.add_action(self.domains_of(guard.parameters), scope.count, precondition, [], [], True)
+    def add_precondition_action(self, action: PreconditionAction) -> None:
+        """Add an action that only tests a condition."""
+        scope = _Scope(action.parameters)
+        precondition = self.formula(action.condition, scope)
+        self.handle.add_action(self.domains_of(action.parameters), scope.count, precondition, [], [], True)
 
     def add_method(self, scheme: Scheme) -> None:
         scope = _Scope(scheme.parameters)

@@ -43,7 +43,7 @@ class GroundingSwitches:
 
     Args:
         split_methods: part choices of a method that have nothing to do with each other.
-        merge_equal: let equal artificial actions be one, and equal methods of a task.
+        merge_equal: let equal precondition actions be one, and equal methods of a task.
         replace_single_methods: replace tasks of a single method by its subtasks, where that does not copy much.
         mutexes: leave out actions whose preconditions never hold together, as far as pairs of facts tell (h^2).
     """
@@ -90,12 +90,12 @@ class Grounding:
 
     @property
     def task_count(self) -> int:
-        """The number of ground compound tasks, the artificial ones included."""
+        """The number of ground compound tasks, those that only the grounder knows included."""
         return self.handle.compound_count
 
     @property
     def method_count(self) -> int:
-        """The number of ground methods, the artificial ones included."""
+        """The number of ground methods, those that only the grounder knows included."""
         return self.handle.method_count
 
     def objects(self, numbers: list[int]) -> tuple[str, ...]:

@@ -19,8 +19,8 @@ Ordering = tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True)
-class Guard:
-    """A task that only tests a condition."""
+class PreconditionAction:
+    """An action without effects that stands for a method's precondition or for the goal."""
 
     name: str
     parameters: tuple[Parameter, ...]
@@ -42,7 +42,7 @@ class Scheme:
 
     Args:
         method: what it comes from; None for the initial network.
-        task: the compound task that it decomposes; artificial names have a space in them.
+        task: the compound task that it decomposes; names that are not the domain's have a space in them.
         parameters: those that are left here; a part has the rest.
         constraints: whatever can never change.
         is_part: whether this scheme is a part of another one of the same method, with parameters of the same names.
@@ -61,15 +61,15 @@ class Scheme:
 INITIAL_TASK = "initial network"
 
 
-def method_schemes(problem: Problem, split: bool) -> tuple[list[Guard], list[Scheme]]:
-    """Return the guards and the methods of a problem; the last guard is the goal, the last whole scheme the network.
+def method_schemes(problem: Problem, split: bool) -> tuple[list[PreconditionAction], list[Scheme]]:
+    """Return the precondition actions and the methods of a problem; the last scheme that is no part is the network.
 
     Args:
         problem: the lifted problem.
         split: whether to part unrelated choices.
     """
     fluents = {effect.atom.predicate for action in problem.domain.actions.values() for effect in action.effects}
-    guards: list[Guard] = []
+    precondition_actions: list[PreconditionAction] = []
     schemes: list[Scheme] = []
     for method in problem.domain.methods.values():
         static, changing = _partition(conjuncts(method.precondition), fluents)
@@ -77,9 +77,9 @@ def method_schemes(problem: Problem, split: bool) -> tuple[list[Guard], list[Sch
         ordering = method.network.ordering
         if changing:
             fixed = (*static, *conjuncts(method.network.constraints))
-            guard = _guard(f"precondition of {method.name}", method.parameters, changing, fixed)
-            guards.append(guard)
-            first = SchemeSubtask(guard.name, tuple(p.name for p in guard.parameters), None)
+            action = _precondition_action(f"precondition of {method.name}", method.parameters, changing, fixed)
+            precondition_actions.append(action)
+            first = SchemeSubtask(action.name, tuple(p.name for p in action.parameters), None)
             subtasks = (first, *subtasks)
             ordering = (
                 *((earlier + 1, later + 1) for earlier, later in ordering),
@@ -89,15 +89,15 @@ def method_schemes(problem: Problem, split: bool) -> tuple[list[Guard], list[Sch
         schemes.append(
             Scheme(method, method.task, method.arguments, method.parameters, constraints, subtasks, ordering)
         )
-    schemes.append(_initial_scheme(problem, guards))
-    return guards, [part for scheme in schemes for part in (_split(scheme) if split else [scheme])]
+    schemes.append(_initial_scheme(problem, precondition_actions))
+    return precondition_actions, [part for scheme in schemes for part in (_split(scheme) if split else [scheme])]
 
 
-def _initial_scheme(problem: Problem, guards: list[Guard]) -> Scheme:
+def _initial_scheme(problem: Problem, precondition_actions: list[PreconditionAction]) -> Scheme:
     subtasks = _own_subtasks(problem.network)
     ordering = problem.network.ordering
     if problem.goal != TRUE:
-        guards.append(Guard("goal", (), problem.goal))
+        precondition_actions.append(PreconditionAction("goal", (), problem.goal))
         ordering = (*ordering, *((position, len(subtasks)) for position in range(len(subtasks))))
         subtasks = (*subtasks, SchemeSubtask("goal", (), None))
     return Scheme(None, INITIAL_TASK, (), problem.parameters, problem.network.constraints, subtasks, ordering)
@@ -139,16 +139,18 @@ def _predicates(formula: Formula) -> Iterator[str]:
             yield from _predicates(body)
 
 
-def _guard(name: str, parameters: Sequence[Parameter], condition: Sequence[Formula], fixed: Sequence[Formula]) -> Guard:
-    """Return the guard with this condition, and whatever else must be true of its variables for good.
+def _precondition_action(
+    name: str, parameters: Sequence[Parameter], condition: Sequence[Formula], fixed: Sequence[Formula]
+) -> PreconditionAction:
+    """Return an action with this precondition, and with whatever else is known of its variables.
 
-    The method demands what is fixed in any case. Without it the guard would be instantiated for every combination of
-    objects for which facts can be true one by one.
+    What is fixed the method demands in any case. Without it the action would have an instance for every combination of
+    objects for which its facts can be true one by one.
     """
     names = set(free_variables(And(tuple(condition))))
     whole = (*condition, *_projections(fixed, names, parameters))
     own = tuple(parameter for parameter in parameters if parameter.name in names)
-    return Guard(name, own, whole[0] if len(whole) == 1 else And(whole))
+    return PreconditionAction(name, own, whole[0] if len(whole) == 1 else And(whole))
 
 
 _MOST_OTHERS = 2  # variables that a projection looks for; each is a join

@@ -19,7 +19,7 @@ _STATUSES = {
     _relax.SearchStatus.Optimal: Status.OPTIMAL,
     _relax.SearchStatus.Solved: Status.SOLVED,
     _relax.SearchStatus.Unsolvable: Status.UNSOLVABLE,
-    _relax.SearchStatus.GaveUp: Status.EXHAUSTED,
+    _relax.SearchStatus.GaveUp: Status.GAVE_UP,
     _relax.SearchStatus.TimeLimit: Status.TIME_LIMIT,
     _relax.SearchStatus.MemoryLimit: Status.MEMORY_LIMIT,
     _relax.SearchStatus.Interrupted: Status.INTERRUPTED,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import statehtn._relax as _relax
 
@@ -15,7 +15,7 @@ class SearchSwitches:
     """Bound every node by the decomposition graph before the heuristic is asked (not with `blind`)."""
     inherit_h: bool = True
     """A node's h is at least its parent's less the cost of the step between them."""
-    adaptive: bool = True
+    selective: bool = True
     """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
     skip_dead_methods: bool = True
     """Leave out methods whose first task would come next and cannot be executed."""
@@ -34,13 +34,5 @@ class SearchSwitches:
 
     def apply(self, options: _relax.SearchOptions) -> None:
         """Hand them over to the core."""
-        options.use_tdg_bound = self.tdg_bound
-        options.inherit_h = self.inherit_h
-        options.ask_adaptively = self.adaptive
-        options.skip_dead_methods = self.skip_dead_methods
-        options.use_stubborn_sets = self.stubborn_sets
-        options.forget_facts = self.forget_facts
-        options.check_endings = self.endings
-        options.merge_sequences = self.merge_sequences
-        options.learn_branching = self.learn_branching
-        options.follow_forced = self.follow_forced
+        for switch in fields(self):
+            setattr(options, switch.name, getattr(self, switch.name))

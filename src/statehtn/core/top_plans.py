@@ -29,7 +29,7 @@ def find_top_plans(
     limits: Limits = Limits(),
     progress: Callable[[TopProgress], None] | None = None,
     switches: SearchSwitches = SearchSwitches(),
-    limits_ways: bool = True,
+    limits_labels: bool = True,
 ) -> SearchOutcome:
     """Search for the k plans of least risk cost that differ in their actions.
 
@@ -41,12 +41,12 @@ def find_top_plans(
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
         switches: refinements to leave out (some mean nothing here: see `relax::TopPlansOptions`).
-        limits_ways: keep at most k ways to every pair of a state and a network.
+        limits_labels: keep at most k labels at every node, a state and a network.
     """
     options = _relax.TopPlansOptions()
     options.count = k
     options.distinct = DISTINCT[distinct]
-    options.limits_ways = limits_ways
+    options.limits_labels = limits_labels
     search = _relax.SearchOptions()
     search.heuristic = HEURISTICS[heuristic].kind
     switches.apply(search)

@@ -35,7 +35,7 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
         progress: Callable[[TopProgress], None] | None,
     ) -> None:
         super().__init__(problem, limits, progress)
-        self.labels = _labels(problem.grounding)
+        self.action_names = _action_names(problem.grounding)
         self.options = options
         self.plans: list[PricedTrace] = []
         self._found: dict[Key, PricedTrace] = {}
@@ -52,7 +52,7 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
         result = _relax.top_plans(
             self.problem.grounding.handle,
             self.prices.units,
-            self.labels,
+            self.action_names,
             self.options,
             *self.limits.left(),
             self.watch,
@@ -97,13 +97,13 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
         return TopProgress(seconds, effort, bound, found, proven)
 
     def _key(self, plan: PricedTrace) -> Key:
-        labels = (self.labels[action] for action in plan.actions)
-        own = [label for label in labels if label is not None]
+        names = (self.action_names[action] for action in plan.actions)
+        own = [name for name in names if name is not None]
         return tuple(own if self.options.distinct == _relax.Distinct.Sequence else sorted(own))
 
 
-def _labels(grounding: Grounding) -> list[int | None]:
-    """Return a number for every ground action, the same for the cases of one action; None for an artificial one."""
+def _action_names(grounding: Grounding) -> list[int | None]:
+    """Return a number for every ground action, the same for the cases of one action; None for a precondition action."""
     numbers: dict[tuple[int, tuple[int, ...]], int] = {}
     handle = grounding.handle
     return [

@@ -133,7 +133,7 @@ class TraceReader:
         self._grounding = grounding
         self._schemas = grounding.handle.action_schema
         self._parts = {scheme.task for scheme in grounding.encoding.schemes if scheme.is_part}
-        self._steps: dict[int, Step | None] = {}  # by ground action; None for artificial ones
+        self._steps: dict[int, Step | None] = {}  # by ground action; None for precondition actions
         self._laws: dict[tuple[int, ...], CostLaw] = {}
         self._methods: dict[int, _GroundMethod] = {}
         self._latest: tuple[_relax.SearchResult, Plan] | None = None
@@ -141,7 +141,7 @@ class TraceReader:
     def read(self, result: _relax.SearchResult) -> Plan:
         """Return the plan of a search result, with the costs that the search has seen; the result must have one.
 
-        Artificial actions vanish, a choice between cases of an action becomes the action, and methods that were split
+        Precondition actions vanish, a choice between cases of an action becomes the action, and methods that were split
         or applied at once stand as in the domain. The plan of a result is read once as long as no other is asked for.
         """
         if self._latest is None or self._latest[0] is not result:
@@ -182,7 +182,7 @@ class TraceReader:
             method = self._method(node.method)
             if method.schemes:
                 below[parent].append((node.subtask, method.finished(below[number])))
-            else:  # a choice; nothing is left of it where the chosen case is artificial
+            else:  # a choice; nothing is left of it where the chosen case is a precondition action
                 below[parent] += ((node.subtask, child) for _, child in below[number])
             below[number] = []
         initial = nodes[0].method
@@ -190,7 +190,7 @@ class TraceReader:
         return self._method(initial).apply(below[0])
 
     def _step(self, action: int) -> Step | None:
-        """Return a ground action as it stands in plans; None for an artificial one."""
+        """Return a ground action as it stands in plans; None for a precondition action."""
         if action not in self._steps:
             lifted = self._grounding.encoding.actions[self._schemas[action]]
             objects = self._grounding.objects(self._grounding.handle.action_arguments(action))

@@ -83,7 +83,7 @@ def ground_task_decomposition_graph(problem: GroundProblem) -> nx.MultiDiGraph[s
         raise UsageError("expected a plain grounding, whose methods are the domain's: ground(problem, switches=PLAIN)")
     graph = _empty()
     for number, action in enumerate(problem.actions):
-        if not action.is_artificial:
+        if not action.is_precondition:
             label = " ".join((action.name, *action.arguments))
             graph.add_node(f"t{number}", kind=Kind.PRIMITIVE, label=label, law=action.cost)
             if action.cost_parts:
@@ -114,7 +114,7 @@ def _add_ground_method(graph: nx.MultiDiGraph[str], problem: GroundProblem, numb
     real = [
         position
         for position, task in enumerate(method.subtasks)
-        if not (problem.is_primitive(task) and problem.actions[task].is_artificial)
+        if not (problem.is_primitive(task) and problem.actions[task].is_precondition)
     ]
     place = {position: index for index, position in enumerate(real)}
     ordering = tuple((place[i], place[j]) for i, j in method.ordering if i in place and j in place)

@@ -27,7 +27,7 @@ STATUSES = {
     Status.OPTIMAL: PlanGenerationResultStatus.SOLVED_OPTIMALLY,
     Status.SOLVED: PlanGenerationResultStatus.SOLVED_SATISFICING,
     Status.UNSOLVABLE: PlanGenerationResultStatus.UNSOLVABLE_PROVEN,
-    Status.EXHAUSTED: PlanGenerationResultStatus.UNSOLVABLE_INCOMPLETELY,
+    Status.GAVE_UP: PlanGenerationResultStatus.UNSOLVABLE_INCOMPLETELY,
     Status.TIME_LIMIT: PlanGenerationResultStatus.TIMEOUT,
     Status.MEMORY_LIMIT: PlanGenerationResultStatus.MEMOUT,
 }

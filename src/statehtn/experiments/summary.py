@@ -12,7 +12,7 @@ from statehtn.model.status import Status
 
 SETTINGS = tuple(column for column in KEY_COLUMNS if column not in ("domain", "problem", "repeat"))
 SOLVED = (Status.OPTIMAL, Status.SOLVED)
-NO_PLAN = (Status.UNSOLVABLE, Status.EXHAUSTED)
+NO_PLAN = (Status.UNSOLVABLE, Status.GAVE_UP)
 LIMITS = (Status.TIME_LIMIT, Status.MEMORY_LIMIT, "killed")
 
 

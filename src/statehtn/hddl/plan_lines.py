@@ -69,7 +69,7 @@ class Lines:
     root_line: Line | None = None
 
     def unwrap_top(self) -> None:
-        """Replace an artificial root task by its subtasks."""
+        """Replace a root task that is not the domain's by its subtasks."""
         top = self.nodes.get(self.roots[0]) if len(self.roots) == 1 else None
         if top is not None and top.task == TOP_TASK:
             del self.nodes[self.roots[0]]

@@ -40,7 +40,7 @@ class GroundCostPart:
 
 @dataclass(frozen=True, slots=True)
 class GroundAction:
-    """A ground action. Artificial ones (method preconditions, the goal) have `is_artificial` set and cost 0.
+    """A ground action. Those that stand for a method's precondition or the goal (`is_precondition`) cost 0.
 
     `cost` is what is due in every state; `cost_parts` come on top of it. An action whose precondition is a disjunction
     stands here several times, once for each case; a compound task of the same name then chooses between them.
@@ -52,7 +52,7 @@ class GroundAction:
     negative_precondition: frozenset[int]
     effects: tuple[GroundEffect, ...]
     cost: CostLaw
-    is_artificial: bool = False
+    is_precondition: bool = False
     cost_parts: tuple[GroundCostPart, ...] = ()
 
     def is_applicable(self, state: frozenset[int]) -> bool:

@@ -5,8 +5,8 @@ negative and maximised), so the fringe is ordered by rising f. Where it differs 
 
 - Line 7: a node is a solution when its network is *empty*. The paper stops as soon as only primitive tasks are left,
   which would drop them from the plan.
-- Line 16: the preconditions of methods are artificial actions of the ground problem, ordered before the method's
-  subtasks, and so is the goal, after everything else; they are tested by line 11.
+- Line 16: the preconditions of methods are actions of the ground problem (precondition actions), ordered before the
+  method's subtasks, and so is the goal, after everything else; they are tested by line 11.
 - There is a closed list: a state and network that were reached before at no higher cost are not put into the fringe
   again.
 """
@@ -70,7 +70,7 @@ def find_plans(
             plan = read_plan(problem, node.plan, node.choices)
             return Solution(Status.OPTIMAL, plan, node.cost, expanded)  # 8
         if expanded == most_expansions:
-            return Solution(Status.EXHAUSTED, expanded=expanded)
+            return Solution(Status.GAVE_UP, expanded=expanded)
         expanded += 1
         if visit is not None:
             visit(node, h)

@@ -45,7 +45,7 @@ def plan_based(problem: GroundProblem, utility: Utility, *, most_expansions: int
     def f(network: TaskNetwork) -> float:
         g = h = 0.0
         for task in network.tasks.values():  # 1; 14
-            value = values.get(f"t{task}", 0.0)  # artificial actions are not in the graph
+            value = values.get(f"t{task}", 0.0)  # precondition actions are not in the graph
             if problem.is_primitive(task):  # 2; 15
                 g += value  # 3; 16
             else:  # 4; 17
@@ -61,7 +61,7 @@ def plan_based(problem: GroundProblem, utility: Utility, *, most_expansions: int
         if not node.network.tasks:  # its cheapest order has been found
             return Solution(Status.OPTIMAL, read_plan(problem, node.plan, node.choices), cost, expanded)  # 11
         if expanded == most_expansions:
-            return Solution(Status.EXHAUSTED, expanded=expanded)
+            return Solution(Status.GAVE_UP, expanded=expanded)
         expanded += 1
         if all(map(problem.is_primitive, node.network.tasks.values())):  # 10
             executed = cheapest_execution(node, problem, utility)  # 10

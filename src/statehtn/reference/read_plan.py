@@ -29,7 +29,7 @@ class Choice:
 def read_plan(problem: GroundProblem, executions: Sequence[Execution], choices: Sequence[Choice]) -> Plan:
     """Return the plan; what grounding has put in is left out.
 
-    Artificial actions (method preconditions, the goal) vanish. A compound task with the name of an action stands for
+    Precondition actions (of methods, and the goal) vanish. A compound task with the name of an action stands for
     the cases of that action: the case that was chosen takes its place.
 
     Args:
@@ -37,7 +37,7 @@ def read_plan(problem: GroundProblem, executions: Sequence[Execution], choices: 
         executions: all actions in the order of their execution.
         choices: all decompositions; the initial task has the identifier 0.
     """
-    own = [execution for execution in executions if not problem.actions[execution.action].is_artificial]
+    own = [execution for execution in executions if not problem.actions[execution.action].is_precondition]
     step_of = {execution.identifier: index for index, execution in enumerate(own)}
     choice_of = {choice.identifier: choice for choice in choices}
     action_names = {(action.name, *action.arguments) for action in problem.actions}

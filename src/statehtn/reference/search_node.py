@@ -19,7 +19,7 @@ class SearchNode:
     Args:
         state: the facts that hold.
         network: what is still to be done.
-        plan: the actions so far, artificial ones included.
+        plan: the actions so far, precondition actions included.
         choices: the methods so far.
         cost: the risk cost of the plan so far, positive, in the domain's unit.
         next_identifier: the first one that no task has had.

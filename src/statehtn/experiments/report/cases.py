@@ -14,7 +14,7 @@ from statehtn.model.status import Status
 from statehtn.settings import HEURISTIC_CHOICES, SOLVERS
 
 BEST_TO_WORST = (
-    *(Status.OPTIMAL, Status.UNSOLVABLE, Status.SOLVED, Status.EXHAUSTED),
+    *(Status.OPTIMAL, Status.UNSOLVABLE, Status.SOLVED, Status.GAVE_UP),
     *(Status.TIME_LIMIT, Status.MEMORY_LIMIT, "killed", "unsupported", "input-error", "error"),
 )
 ANSWERS = (*SOLVED, Status.UNSOLVABLE)

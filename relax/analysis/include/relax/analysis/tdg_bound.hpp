@@ -13,7 +13,7 @@ namespace relax {
 
 // The decomposition-graph bound: by TaskId, the least cost of the actions of any finite decomposition, states ignored.
 // It is the least fixed point of the paper's Algorithms 1 and 2 (best decomposition without a repeated task on a path),
-// found by Knuth's generalisation of Dijkstra's algorithm (1977). `kNoDecomposition` where there is no finite
+// found by Knuth's generalisation of Dijkstra's algorithm (1977). `kInfinity` where there is no finite
 // decomposition. Throws Stopped.
 std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits);
 

@@ -2,19 +2,19 @@
 #define RELAX_HEURISTICS_HMAX_HPP
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "relax/base/cost.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/heuristics/relaxed_task.hpp"
 
 namespace relax {
 
 // The max heuristic (Bonet and Geffner 2001): the cost of a fact is that of its cheapest achiever, the cost of an
-// operator's preconditions is that of the dearest one. Computed as a generalised Dijkstra search.
+// operator's preconditions is that of the most expensive one. Computed as a generalised Dijkstra search.
 // Keeps what LM-cut needs: each operator's supporter (the precondition of that highest cost), and an incremental update
 // for operators that become cheaper.
 //
@@ -22,27 +22,26 @@ namespace relax {
 // it wakes up, at the start (composition model) or when its action may start (decomposition model).
 class HMax {
 public:
-    static constexpr Cost kInfinite = std::numeric_limits<Cost>::max();
-
     HMax(const RelaxedModel& model, Limits& limits);
 
     // Both computations throw Stopped; after that, the next one must be from scratch.
 
-    // Compute from scratch; `costs` by OwnerId. Returns the cost of the dearest goal, or nothing where one is out of
-    // reach.
+    // Compute from scratch; `costs` by OwnerId. Returns the cost of the most expensive goal, or nothing where one is
+    // out of reach.
     std::optional<Cost> run(const RelaxedTask& task, std::span<const Cost> costs);
 
-    // Update after the costs of the owners of these operators have been lowered. Returns the cost of the dearest goal.
+    // Update after the costs of the owners of these operators have been lowered. Returns the cost of the most expensive
+    // goal.
     Cost lower(const RelaxedTask& task, std::span<const OperatorId> operators, std::span<const Cost> costs);
 
-    Cost cost(RelaxedFact fact) const { return facts_[fact].epoch == epoch_ ? facts_[fact].cost : kInfinite; }
+    Cost cost(RelaxedFact fact) const { return facts_[fact].epoch == epoch_ ? facts_[fact].cost : kInfinity; }
     // An operator of this task all of whose preconditions are within reach.
     bool is_reached(OperatorId op) const { return operators_[op].epoch == epoch_ && operators_[op].missing == 0; }
     RelaxedFact supporter(OperatorId op) const { return operators_[op].supporter; }
     // How many operators have been looked at so far.
     std::uint64_t work() const { return looks_; }
-    // The dearest goal; meaningless where there are no goals.
-    RelaxedFact dearest_goal() const { return dearest_goal_; }
+    // The most expensive goal; meaningless where there are no goals.
+    RelaxedFact most_expensive_goal() const { return most_expensive_goal_; }
 
 private:
     struct FactState {
@@ -65,18 +64,18 @@ private:
     void offer(RelaxedFact fact, Cost cost);
     bool is_empty() const { return queue_.empty() && level_facts_.empty(); }
     QueueEntry pop();
-    void support_by_dearest(std::span<const RelaxedFact> preconditions, OperatorState& state) const;
-    Cost find_dearest_goal(std::span<const RelaxedFact> goals);
+    void support_by_most_expensive(std::span<const RelaxedFact> preconditions, OperatorState& state) const;
+    Cost find_most_expensive_goal(std::span<const RelaxedFact> goals);
 
     const RelaxedModel& model_;
     Limits& limits_;
     std::vector<FactState> facts_;
     std::vector<OperatorState> operators_;
-    // The queue: facts of the present level, and a heap of the dearer ones, cheapest first.
+    // The queue: facts of the present level, and a heap of the more expensive ones, cheapest first.
     Cost level_ = 0;
     std::vector<RelaxedFact> level_facts_;
     std::vector<QueueEntry> queue_;
-    RelaxedFact dearest_goal_ = 0;
+    RelaxedFact most_expensive_goal_ = 0;
     std::uint32_t epoch_ = 0;
     std::uint64_t looks_ = 0;
 };

@@ -15,10 +15,10 @@ namespace relax {
 // which every plan of the relaxed task needs, adds the least cost among them, and takes it off all of them, until the
 // goals are free.
 //
-// A round looks backward from the goal alone: the goal zone are the facts that lead to the dearest goal for free, along
-// supporters, and the cut are the operators that lead into it from a fact outside that the state reaches. Facts of the
-// zone cost as much as the goal at least. A cheaper fact is therefore reached without the zone, as every fact is by way
-// of cheaper ones; only for dearer facts must a way be looked for.
+// A round looks backward from the goal alone: the goal zone are the facts that lead to the most expensive goal for
+// free, along supporters, and the cut are the operators that lead into it from a fact outside that the state reaches.
+// Facts of the zone cost as much as the goal at least. A cheaper fact is therefore reached without the zone, as every
+// fact is by way of cheaper ones; only for more expensive facts must a path be looked for.
 class LmCut {
 public:
     static constexpr bool kReadsOperators = true;

@@ -53,7 +53,7 @@ struct LiftedAction {
     Formula precondition;
     std::vector<LiftedEffect> effects;
     std::vector<LiftedCostCondition> cost_conditions;
-    bool is_artificial = false;  // a method precondition or the goal: left out where it is trivially true
+    bool is_precondition = false;  // a method precondition or the goal: left out where it is trivially true
 };
 
 struct LiftedTask {

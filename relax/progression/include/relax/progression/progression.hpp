@@ -35,7 +35,7 @@ struct Successor {
 
 struct ProgressionOptions {
     bool skip_dead_methods = true;  // leave out methods whose first task cannot be executed where it would come next
-    bool use_stubborn_sets = true;  // leave out actions that can wait until others have been executed
+    bool stubborn_sets = true;      // leave out actions that can wait until others have been executed
     bool use_macros = false;        // actions in a row count as one (TaskNetworks::form)
     bool forget_facts = true;       // states keep only the facts that matter to what is left to do
     bool when_due = false;          // methods that begin with an action are not chosen until it can be executed
@@ -65,7 +65,7 @@ public:
     void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
     // Of the actions that cost and change nothing, execute at once only those that are named (by ActionId) from now on:
     // for searches to which the order of the others makes a difference.
-    void hurry_only(const std::vector<bool>& actions);
+    void execute_at_once_only(const std::vector<bool>& actions);
 
     // The same where there is at most one successor, or one is enough, and that is found with little work. False, and
     // no successors, elsewhere.
@@ -93,8 +93,8 @@ private:
     bool decompose_at_once(StateId state, NetworkId network, std::vector<Successor>& successors);
     void expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors);
     std::optional<Occurrence> compound_to_decompose() const;
-    bool is_in_the_way(TaskId task) const { return problem_.is_primitive(task) && is_void_[task]; }
-    bool is_void(ActionId action) const;
+    bool is_executed_at_once(TaskId task) const { return problem_.is_primitive(task) && is_executed_at_once_[task]; }
+    bool costs_and_changes_nothing(ActionId action) const;
     Cost cost(ActionId action, std::span<const std::uint64_t> state) const;
     void find_live_methods(StateId state);
     void choose_actions(StateId state, NetworkId network);
@@ -105,7 +105,7 @@ private:
     const GroundProblem& problem_;
     Prices prices_;
     StateTransition transition_;
-    std::vector<bool> is_void_;  // by ActionId: costs and changes nothing in any state, and comes at once
+    std::vector<bool> is_executed_at_once_;  // by ActionId: costs and changes nothing in any state, and comes at once
     StateRegistry states_;
     std::unique_ptr<TaskNetworks> networks_;
     Branching branching_;

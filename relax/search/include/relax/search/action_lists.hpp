@@ -9,8 +9,8 @@
 
 namespace relax {
 
-// What makes an action the same as another to whoever reads a plan, whichever of its cases is executed.
-using ActionLabel = std::uint32_t;
+// An action as plans show it: all cases of an action have the same name.
+using ActionName = std::uint32_t;
 
 using ActionListId = std::uint32_t;
 
@@ -23,21 +23,21 @@ public:
     ActionLists() { cells_.push_back({0, kEmpty}); }
 
     // The list with one more action, at the end.
-    ActionListId append(ActionListId list, ActionLabel action) { return intern(action, list); }
+    ActionListId append(ActionListId list, ActionName action) { return intern(action, list); }
     // The sorted list with one more action, where it belongs. Lists that are made this way alone stand for multisets.
-    ActionListId insert(ActionListId list, ActionLabel action);
+    ActionListId insert(ActionListId list, ActionName action);
 
 private:
     struct Cell {
-        ActionLabel last;
+        ActionName last;
         ActionListId before;
     };
 
-    ActionListId intern(ActionLabel last, ActionListId before);
+    ActionListId intern(ActionName last, ActionListId before);
 
     SegmentedArray<Cell> cells_;
     IdTable table_;
-    std::vector<ActionLabel> later_;
+    std::vector<ActionName> later_;
 };
 
 }  // namespace relax

@@ -11,15 +11,15 @@
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
-#include "relax/heuristics/adaptive_heuristic.hpp"
+#include "relax/heuristics/selective_heuristic.hpp"
 #include "relax/problem/ground_problem.hpp"
 #include "relax/progression/ending.hpp"
 #include "relax/progression/progression.hpp"
-#include "relax/search/forced_circle.hpp"
+#include "relax/search/forced_cycle.hpp"
 #include "relax/search/open_list.hpp"
-#include "relax/search/search_node.hpp"
 #include "relax/search/search_options.hpp"
 #include "relax/search/search_result.hpp"
+#include "relax/search/search_space.hpp"
 #include "relax/search/stepwise_search.hpp"
 
 namespace relax {
@@ -52,14 +52,14 @@ private:
     std::optional<StopReason> search(std::uint64_t most_work);
     void start();
     Cost proven() const;
-    Cost enough() const;
+    Cost cutoff() const;
     // Whether priorities are lower bounds.
     bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar; }
-    bool is_stale(const OpenList::Entry& entry) const;
+    bool is_stale(const OpenList<NodeId>::Entry& entry) const;
     bool evaluate(NodeId id, Cost f);
-    std::optional<Cost> ask(AdaptiveHeuristic& heuristic, NodeId id);
+    std::optional<Cost> ask(SelectiveHeuristic& heuristic, NodeId id);
     bool can_end(const SearchNode& node);
-    std::uint64_t work_of_a_node(const AdaptiveHeuristic& heuristic) const;
+    std::uint64_t work_of_a_node(const SelectiveHeuristic& heuristic) const;
     void expand(NodeId id);
     void note_branching(NodeId id);
     std::optional<NodeId> follow(NodeId id);
@@ -68,7 +68,7 @@ private:
     Cost cheap_bound(const SearchNode& parent, const Successor& successor);
     Cost priority(NodeId id) const;
     bool is_beyond(Cost g, Cost h);
-    bool is_too_dear(const SearchNode& node);
+    bool cannot_improve(const SearchNode& node);
     void push(NodeId id);
     Cost open_bound() const;
 
@@ -79,15 +79,15 @@ private:
     SearchStatistics& statistics_;
     Progression progression_;
     std::optional<Ending> ending_;
-    ForcedCircle circle_;
-    std::vector<AdaptiveHeuristic> heuristics_;
-    DuplicateRegistry nodes_;
-    OpenList open_;
+    ForcedCycle forced_cycle_;
+    std::vector<SelectiveHeuristic> heuristics_;
+    SearchSpace nodes_;
+    OpenList<NodeId> open_;
     std::optional<NodeId> goal_;  // of the best plan so far
     std::optional<StopReason> stop_;
     bool is_done_ = false;
-    bool is_torn_ = false;     // in the middle of an expansion, where a node is in no list
-    bool leaves_out_ = false;  // there may be plans that cost `kMostCost` or more
+    bool is_expanding_ = false;    // in the middle of an expansion, where a node is in no list
+    bool has_overflowed_ = false;  // there may be plans that cost `kMostCost` or more
     std::vector<Successor> successors_;
     std::vector<Successor> forced_;
     std::uint64_t decided_ = 0;  // nodes expanded that had several successors, or looked so

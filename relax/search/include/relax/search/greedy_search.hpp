@@ -14,11 +14,11 @@
 #include "relax/heuristics/heuristic.hpp"
 #include "relax/problem/ground_problem.hpp"
 #include "relax/progression/progression.hpp"
-#include "relax/search/forced_circle.hpp"
+#include "relax/search/forced_cycle.hpp"
 #include "relax/search/open_list.hpp"
-#include "relax/search/search_node.hpp"
 #include "relax/search/search_options.hpp"
 #include "relax/search/search_result.hpp"
+#include "relax/search/search_space.hpp"
 #include "relax/search/stepwise_search.hpp"
 #include "relax/search/type_based_list.hpp"
 
@@ -61,9 +61,9 @@ private:
     SearchStatistics& statistics_;
     Progression progression_;
     std::unique_ptr<Heuristic> heuristic_;
-    DuplicateRegistry nodes_;
-    OpenList open_;
-    OpenList preferred_;
+    SearchSpace nodes_;
+    OpenList<NodeId> open_;
+    OpenList<NodeId> preferred_;
     TypeBasedList types_;
     std::int64_t turns_ = 0;            // of the open list
     std::int64_t preferred_turns_ = 0;  // of the list of preferred successors, less what it has earned
@@ -73,10 +73,10 @@ private:
     std::optional<NodeId> goal_;  // of the cheapest plan so far
     std::optional<StopReason> stop_;
     bool is_done_ = false;
-    bool leaves_out_ = false;  // there may be plans that cost `kMostCost` or more
+    bool has_overflowed_ = false;  // there may be plans that cost `kMostCost` or more
     std::uint64_t most_evaluations_;
     std::uint64_t most_work_ = std::numeric_limits<std::uint64_t>::max();
-    ForcedCircle circle_;
+    ForcedCycle forced_cycle_;
     std::vector<Successor> successors_;
 };
 

@@ -10,7 +10,7 @@
 #include "relax/base/segmented_array.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/open_list.hpp"
-#include "relax/search/search_node.hpp"
+#include "relax/search/search_space.hpp"
 
 namespace relax {
 
@@ -32,7 +32,7 @@ public:
     // Returns the cheapest order, or nothing if there is none or `stop` says that a limit was reached.
     std::optional<Order> find(NetworkId network, std::optional<StopReason>& stop);
     // Whether there may be orders that cost `kMostCost` or more; they were left out.
-    bool leaves_out() const { return leaves_out_; }
+    bool has_overflowed() const { return has_overflowed_; }
 
 private:
     void reach(NodeId from, Cost g, const Successor& successor);
@@ -40,12 +40,12 @@ private:
 
     Progression& progression_;
     Limits& limits_;
-    DuplicateRegistry nodes_;
+    SearchSpace nodes_;
     SegmentedArray<std::uint32_t> seen_;  // by NodeId: the latest call that met the node, or kHopeless
     static constexpr std::uint32_t kHopeless = 0;
     std::uint32_t call_ = 0;
-    bool leaves_out_ = false;
-    OpenList open_;
+    bool has_overflowed_ = false;
+    OpenList<NodeId> open_;
     std::vector<NodeId> met_;  // in this call
     std::vector<Successor> successors_;
 };

@@ -8,20 +8,20 @@
 #include <vector>
 
 #include "relax/base/ids.hpp"
-#include "relax/search/search_node.hpp"
 
 namespace relax {
 
-// The open list: a heap by priority (f, say); ties by low h, then the newest first, but for recursion that costs
-// nothing and would dive for ever: a network comes after all those with half as many tasks or fewer. Entries are not
-// removed when their node improves: who pops one asks the node.
+// The open list, of nodes or labels: a heap by priority (f, say). Ties: low h first; then, so that recursion without a
+// cost does not go on for ever, small networks, by powers of two of their sizes; then the newest. An entry is not
+// removed when its node improves: whoever pops one compares it with the node.
+template <typename Id>
 class OpenList {
 public:
     struct Entry {
         Cost priority;
         Cost h;
         std::uint32_t pending_tasks;
-        NodeId node;
+        Id id;
         std::uint64_t age;
     };
 
@@ -29,8 +29,8 @@ public:
     const Entry& top() const { return heap_.front(); }
     std::span<const Entry> entries() const { return heap_; }
 
-    void push(NodeId node, Cost priority, Cost h, std::uint32_t pending_tasks) {
-        heap_.push_back({priority, h, pending_tasks, node, next_age_++});
+    void push(Id id, Cost priority, Cost h, std::uint32_t pending_tasks) {
+        heap_.push_back({priority, h, pending_tasks, id, next_age_++});
         std::push_heap(heap_.begin(), heap_.end(), comes_later);
     }
 

@@ -70,9 +70,9 @@ private:
     OpenPreconditions open_preconditions_;
     SegmentedArray<Node> nodes_;
     std::vector<bool> is_known_;  // by NetworkId: the closed list
-    OpenList open_;
+    OpenList<NodeId> open_;
     std::optional<Solution> solution_;   // the best so far
-    bool leaves_out_ = false;            // there may be plans that cost `kMostCost` or more
+    bool has_overflowed_ = false;        // there may be plans that cost `kMostCost` or more
     OrderedTasks tasks_;                 // of the network looked at
     std::vector<Occurrence> compounds_;  // likewise
 };

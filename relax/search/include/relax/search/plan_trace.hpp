@@ -6,8 +6,8 @@
 #include "relax/analysis/prices.hpp"
 #include "relax/problem/ground_problem.hpp"
 #include "relax/progression/progression.hpp"
-#include "relax/search/search_node.hpp"
 #include "relax/search/search_result.hpp"
+#include "relax/search/search_space.hpp"
 
 namespace relax {
 
@@ -16,8 +16,8 @@ void trace_steps(const GroundProblem& problem, const Prices& prices, Progression
                  std::span<const SearchStep> steps, SearchResult& result);
 
 // The same for the steps that lead to a node.
-void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression,
-                const DuplicateRegistry& nodes, NodeId goal, SearchResult& result);
+void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression, const SearchSpace& nodes,
+                NodeId goal, SearchResult& result);
 
 }  // namespace relax
 

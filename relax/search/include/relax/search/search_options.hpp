@@ -20,10 +20,10 @@ struct SearchOptions : ProgressionOptions {
     std::vector<HeuristicKind> more_heuristics;
     SearchAlgorithm algorithm = SearchAlgorithm::AStar;
     double weight = 1.0;               // of h, for Weighted; at least 1
-    bool use_tdg_bound = true;         // bound nodes by the decomposition graph before the heuristic is asked
+    bool tdg_bound = true;             // bound nodes by the decomposition graph before the heuristic is asked
     bool inherit_h = true;             // a node's h is at least its parent's less the cost of the step
-    bool ask_adaptively = true;        // ask an admissible heuristic rarely while it tells no more than the cheap bound
-    bool check_endings = true;         // leave out networks in partial order whose last actions cannot be executed
+    bool selective = true;             // ask an admissible heuristic rarely while it tells no more than the cheap bound
+    bool endings = true;               // leave out networks in partial order whose last actions cannot be executed
     bool merge_sequences = true;       // networks whose actions in a row need and change the same are the same
     bool learn_branching = true;       // decompose the task that has left the fewest nodes to expand so far
     bool follow_forced = true;         // pass through nodes with but one way to go on

@@ -18,6 +18,7 @@
 #include "relax/progression/progression.hpp"
 #include "relax/search/action_lists.hpp"
 #include "relax/search/open_list.hpp"
+#include "relax/search/search_node.hpp"
 #include "relax/search/search_options.hpp"
 #include "relax/search/search_result.hpp"
 
@@ -29,9 +30,9 @@ enum class Distinct : std::uint8_t { Sequence, Multiset };
 struct TopPlansOptions {
     std::size_t count = 1;  // of plans that are wanted
     Distinct distinct = Distinct::Sequence;
-    bool limits_ways = true;  // keep no more than so many ways to a pair of state and network
+    bool limits_labels = true;  // keep no more than so many labels at a node
     // Of these it reads the heuristic, which must be admissible, and those that FindPlans shares with other searches:
-    // use_tdg_bound, inherit_h, skip_dead_methods, forget_facts, and for multisets use_stubborn_sets.
+    // tdg_bound, inherit_h, skip_dead_methods, forget_facts, and for multisets stubborn_sets.
     SearchOptions search;
 };
 
@@ -49,95 +50,93 @@ struct TopPlansResult {
 
 // The cheapest plans that differ in their actions: A* over states, task networks and the actions so far.
 //
-// Actions of the domain have labels; those that stand for preconditions have none and do not count, nor do different
-// decompositions. A node is a pair of state and network, and a way to it: the list of the labels on it, as a sequence
-// or as a multiset. Two paths to a pair with the same list are the same way, at the lower cost of the two (only
-// multisets can have two costs, where those depend on the state). Every way has its own g, all ways to a pair have one
-// h.
+// Actions of the domain have names; precondition actions have none and do not count, nor do different decompositions. A
+// node is a state and a network. A label is a node with the list of the named actions on a path to it, as a sequence or
+// as a multiset. Two paths to a node with equal lists have the same label, at the lower cost of the two (only multisets
+// can have two costs, where those depend on the state). Every label has its own g; all labels of a node have one h.
 //
-// Of each pair only the k cheapest ways are kept: what completes a dearer one to a plan completes each of those to
-// another plan, different and not dearer. So there are finitely many nodes where there are finitely many pairs,
-// whatever loops cost nothing. By the same argument every plan that is cheaper than both the k-th plan found and the
-// least f of all open nodes has been found: else take the cheapest plan that was not, with the fewest steps to go from
-// a node on its path that was kept and expanded. The next node was generated, and is not open, since its f is too low;
-// so it is kept and expanded, against the choice, or k others were preferred to it. These, completed likewise, are k
-// plans as cheap as it is: not all were found, and one that was not has fewer steps to go.
+// Of each node only the k cheapest labels are kept: what completes a more expensive one to a plan completes each of
+// those to another plan, different and not more expensive. So there are finitely many labels where there are finitely
+// many nodes, whatever cycles cost nothing. By the same argument every plan that is cheaper than both the k-th plan
+// found and the least f of all open labels has been found: else take the cheapest plan that was not, with the fewest
+// steps to go from a label on its path that was kept and expanded. The next label was generated, and is not open, since
+// its f is too low; so it is kept and expanded, against the choice, or k others were preferred to it. These, completed
+// likewise, are k plans as cheap as it is: not all were found, and one that was not has fewer steps to go.
 //
 // The order of actions makes no difference between multisets: there stubborn sets are allowed (moving an action to the
 // front changes neither its own case nor that of another, so that the cost stays the same), and executing an action at
-// once that costs and changes nothing. Between sequences it does: there only actions without a label come at once.
+// once that costs and changes nothing. Between sequences it does: there only actions without a name come at once.
 class TopPlans {
 public:
-    // `labels`: by ActionId. `statistics` is kept up to date for whoever watches from
+    // `names`: by ActionId. `statistics` is kept up to date for whoever watches from
     // `limits.poll`. Throws Stopped.
-    TopPlans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionLabel>> labels,
+    TopPlans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionName>> names,
              const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
 
     TopPlansResult run();
 
 private:
-    using PairId = std::uint32_t;
-    using WayId = NodeId;  // as the open list calls it
+    using LabelId = std::uint32_t;
 
-    // A state and a network, and all ways to it that are kept.
-    struct Pair {
+    // A state and a network, and the labels that are kept.
+    struct Node {
         StateId state;
         NetworkId network;
-        Cost h;                   // a lower bound of the cost to come
-        bool is_evaluated;        // `h` includes the heuristic
-        std::vector<WayId> ways;  // a heap, the dearest first
+        Cost h;                       // a lower bound of the cost to come
+        bool is_evaluated;            // `h` includes the heuristic
+        std::vector<LabelId> labels;  // a heap, the most expensive first
     };
-    struct Way {
+    struct Label {
         Cost g;
-        PairId pair;
+        NodeId node;
         ActionListId actions;
-        WayId parent;  // itself for the root
+        LabelId parent;  // itself for the root
         SearchStep step;
         bool is_kept;
         bool is_expanded;  // at its present g
     };
 
     std::optional<StopReason> search();
-    bool evaluate(Pair& pair);
-    void expand(WayId id);
-    void generate(WayId parent, const Successor& successor);
-    void add_plan(WayId id);
-    bool keep(WayId id);
-    ActionListId list_after(WayId way, const SearchStep& step);
-    Cost cheap_bound(const Pair& parent, const Successor& successor);
-    PairId find_pair(StateId state, NetworkId network);
-    std::optional<WayId> find_way(PairId pair, ActionListId actions) const;
-    WayId add_way(const Way& way);
-    Cost priority(const Way& way) const { return way.g + pairs_[way.pair].h; }
-    Cost enough() const;
+    bool evaluate(Node& node);
+    void expand(LabelId id);
+    void generate(LabelId parent, const Successor& successor);
+    void add_plan(LabelId id);
+    bool keep(LabelId id);
+    ActionListId list_after(LabelId label, const SearchStep& step);
+    Cost cheap_bound(const Node& parent, const Successor& successor);
+    NodeId find_node(StateId state, NetworkId network);
+    std::optional<LabelId> find_label(NodeId node, ActionListId actions) const;
+    LabelId add_label(const Label& label);
+    Cost priority(const Label& label) const { return label.g + nodes_[label.node].h; }
+    Cost cutoff() const;
     void note_proven(Cost bound);
-    void push(WayId id);
-    bool is_cheaper(WayId left, WayId right) const;
-    SearchResult trace(WayId goal);
+    void push(LabelId id);
+    bool is_cheaper(LabelId left, LabelId right) const;
+    SearchResult trace(LabelId goal);
 
     const GroundProblem& problem_;
     Prices prices_;
-    std::vector<std::optional<ActionLabel>> labels_;
+    std::vector<std::optional<ActionName>> names_;
     TopPlansOptions options_;
     Limits& limits_;
     TopPlansStatistics& statistics_;
     Progression progression_;
     std::unique_ptr<Heuristic> heuristic_;
     ActionLists lists_;
-    SegmentedArray<Pair> pairs_;
-    IdTable pair_table_;
-    SegmentedArray<Way> ways_;
-    IdTable way_table_;
-    OpenList open_;
-    std::vector<WayId> plans_;  // the cheapest that were found, the cheapest first
-    bool leaves_out_ = false;   // there may be more than those ...
-    bool is_cut_ = false;       // ... that cost `kMostCost` or more
+    SegmentedArray<Node> nodes_;
+    IdTable node_table_;
+    SegmentedArray<Label> labels_;
+    IdTable label_table_;
+    OpenList<LabelId> open_;
+    std::vector<LabelId> plans_;   // the cheapest that were found, the cheapest first
+    bool has_pruned_ = false;      // there may be more plans than those ...
+    bool has_overflowed_ = false;  // ... that cost `kMostCost` or more
     std::vector<Successor> successors_;
     std::vector<TaskId> tasks_;
 };
 
 // Make and run it; a limit that is reached while it is being made is a result, too.
-TopPlansResult top_plans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionLabel>> labels,
+TopPlansResult top_plans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionName>> names,
                          const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
 
 }  // namespace relax

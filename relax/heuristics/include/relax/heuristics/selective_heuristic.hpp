@@ -1,5 +1,5 @@
-#ifndef RELAX_HEURISTICS_ADAPTIVE_HEURISTIC_HPP
-#define RELAX_HEURISTICS_ADAPTIVE_HEURISTIC_HPP
+#ifndef RELAX_HEURISTICS_SELECTIVE_HEURISTIC_HPP
+#define RELAX_HEURISTICS_SELECTIVE_HEURISTIC_HPP
 
 #include <cstdint>
 #include <memory>
@@ -11,10 +11,10 @@ namespace relax {
 
 // A heuristic, and whether it is worth asking. Its answers are judged by the window: while too few of them tell more
 // than was known, more and more nodes go unasked before the next window.
-class AdaptiveHeuristic {
+class SelectiveHeuristic {
 public:
     // `asks_always`: whether to ask for every node all the same.
-    AdaptiveHeuristic(std::unique_ptr<Heuristic> heuristic, bool asks_always)
+    SelectiveHeuristic(std::unique_ptr<Heuristic> heuristic, bool asks_always)
         : heuristic_(std::move(heuristic)), asks_always_(asks_always) {}
 
     Heuristic& operator*() const { return *heuristic_; }

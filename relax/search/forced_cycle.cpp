@@ -1,4 +1,4 @@
-#include "relax/search/forced_circle.hpp"
+#include "relax/search/forced_cycle.hpp"
 
 #include <algorithm>
 
@@ -6,15 +6,15 @@ namespace relax {
 
 namespace {
 
-constexpr std::uint32_t kLongestCircle = 64;  // in steps
+constexpr std::uint32_t kLongestCycle = 64;  // in steps
 
 }  // namespace
 
-bool ForcedCircle::closes(const DuplicateRegistry& nodes, const TaskNetworks& networks, NodeId node) {
+bool ForcedCycle::closes(const SearchSpace& nodes, const TaskNetworks& networks, NodeId node) {
     const auto task = first(networks, nodes[node].network);
     std::uint32_t smallest = networks.size(nodes[node].network);
     NodeId before = node;
-    for (std::uint32_t step = 0; task && step < kLongestCircle && nodes[before].is_forced; ++step) {
+    for (std::uint32_t step = 0; task && step < kLongestCycle && nodes[before].is_forced; ++step) {
         before = nodes[before].parent;
         const NetworkId network = nodes[before].network;
         smallest = std::min(smallest, networks.size(network));
@@ -29,7 +29,7 @@ bool ForcedCircle::closes(const DuplicateRegistry& nodes, const TaskNetworks& ne
     return false;
 }
 
-std::optional<TaskId> ForcedCircle::first(const TaskNetworks& networks, NetworkId network) {
+std::optional<TaskId> ForcedCycle::first(const TaskNetworks& networks, NetworkId network) {
     unconstrained_.clear();
     networks.unconstrained(network, unconstrained_);
     return unconstrained_.size() == 1 ? std::optional(unconstrained_.front().task) : std::nullopt;

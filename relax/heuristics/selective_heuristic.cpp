@@ -1,4 +1,4 @@
-#include "relax/heuristics/adaptive_heuristic.hpp"
+#include "relax/heuristics/selective_heuristic.hpp"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ constexpr std::uint64_t kNodesBelow = 20;  // that are not expanded either, wher
 
 }  // namespace
 
-bool AdaptiveHeuristic::is_worth_asking() {
+bool SelectiveHeuristic::is_worth_asking() {
     if (asks_always_ || unasked_nodes_ == 0) {
         return true;
     }
@@ -20,7 +20,7 @@ bool AdaptiveHeuristic::is_worth_asking() {
     return false;
 }
 
-void AdaptiveHeuristic::note_answer(bool told_more, std::uint64_t work_saved) {
+void SelectiveHeuristic::note_answer(bool told_more, std::uint64_t work_saved) {
     ++answers_;
     saved_ += told_more ? work_saved : 0;
     if (answers_ == kWindow) {

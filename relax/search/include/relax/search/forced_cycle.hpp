@@ -1,10 +1,10 @@
-#ifndef RELAX_SEARCH_FORCED_CIRCLE_HPP
-#define RELAX_SEARCH_FORCED_CIRCLE_HPP
+#ifndef RELAX_SEARCH_FORCED_CYCLE_HPP
+#define RELAX_SEARCH_FORCED_CYCLE_HPP
 
 #include <vector>
 
 #include "relax/progression/progression.hpp"
-#include "relax/search/search_node.hpp"
+#include "relax/search/search_space.hpp"
 
 namespace relax {
 
@@ -18,10 +18,10 @@ namespace relax {
 // A of a has become. Take the fewest steps that accomplish A from this state, on whatever way. They begin with the
 // forced ones, and then accomplish the inner A from the same state in fewer steps: a contradiction. So there are none,
 // and both nodes are dead ends.
-class ForcedCircle {
+class ForcedCycle {
 public:
     // Whether the last forced steps to the node are such a circle; only a few steps are looked back upon.
-    bool closes(const DuplicateRegistry& nodes, const TaskNetworks& networks, NodeId node);
+    bool closes(const SearchSpace& nodes, const TaskNetworks& networks, NodeId node);
 
 private:
     // The unconstrained task, if it is the only one.
