@@ -15,6 +15,7 @@ from statehtn.reference.compute_rc_ad_heur import Heuristic, blind, compute_rc_a
 from statehtn.reference.compute_task_eu import compute_task_eu, compute_utilities
 from statehtn.reference.find_plans import find_plans, successors
 from statehtn.reference.hmax import hmax
+from statehtn.reference.lm_cut import lm_cut
 from statehtn.reference.plan_based import plan_based
 from statehtn.reference.relaxed_model import RelaxedFact, RelaxedOperator, RelaxedTask, build_rc_model
 from statehtn.reference.search_node import SearchNode, Solution
@@ -33,6 +34,7 @@ __all__ = [
     "compute_utilities",
     "find_plans",
     "hmax",
+    "lm_cut",
     "plan_based",
     "successors",
 ]
