@@ -9,7 +9,10 @@ from typing import Any
 import statehtn
 from statehtn.experiments.record_files import RecordFiles
 from statehtn.experiments.records import Record
-from statehtn.experiments.run import Agent, Instance, Run
+from statehtn.experiments.report.results import Agent
+from statehtn.experiments.run import Instance, Run
+from statehtn.risk import utility_for
+from statehtn.settings import Settings
 
 NEUTRAL: Agent = ("neutral", None)
 Outcomes = Sequence[tuple[float, float]]
@@ -71,6 +74,7 @@ def record(
     result: dict[str, Any] | None = None,
 ) -> Record:
     """Return the record of a run with this result."""
-    run = Run(Instance(domain, problem, "d", "p"), *agent, solver, heuristic, search, repeat, 60.0, 4000.0)
+    settings = Settings(utility_for(*agent), solver, heuristic, search, 1.0, "fewest")
+    run = Run(Instance(domain, problem, "d", "p"), settings, repeat, 60.0, 4000.0)
     status = status or (result or {}).get("status", "error")
     return Record(run, status, 0, 1.0, "", result, machine="laptop", version=statehtn.__version__)

@@ -14,7 +14,7 @@ from statehtn.expected import items, number, one_of, whole_number
 from statehtn.found_plan import PricedStep
 from statehtn.model.status import Status
 from statehtn.result import Result
-from statehtn.risk import Attitude, AttitudeName, Utility, agent_name, plan_risk_cost, utility_for
+from statehtn.risk import Attitude, AttitudeName, Utility, agent_name, agent_order, agents_of, plan_risk_cost
 
 Cells = tuple["PricedStep | None", ...]
 
@@ -189,26 +189,21 @@ class AttitudeComparison:
         )
 
 
-def agents_of(alpha: float | Iterable[float], attitudes: Iterable[Attitude | AttitudeName]) -> list[Utility]:
-    """Return the agents of these attitudes, with each alpha: from the most averse to the most seeking.
+def compared_agents(alpha: float | Iterable[float], attitudes: Iterable[Attitude | AttitudeName]) -> list[Utility]:
+    """Return the agents of these attitudes, each once: from the most averse to the most seeking.
 
     Raises:
         UsageError: an attitude or an alpha is none, or there are no agents.
     """
-    given = items(alpha, "alpha") if isinstance(alpha, Iterable) else [alpha]
-    alphas = sorted({number(value, "alpha") for value in given})
+    alphas = items(alpha, "alpha") if isinstance(alpha, Iterable) else [alpha]
     names = [attitudes] if isinstance(attitudes, str) else items(attitudes, "'attitudes'")
-    wanted = {Attitude(one_of(attitude, list(Attitude), "attitude")) for attitude in names}
-    agents: list[Utility] = []
-    if Attitude.AVERSE in wanted:
-        agents += [utility_for(Attitude.AVERSE, value) for value in reversed(alphas)]
-    if Attitude.NEUTRAL in wanted:
-        agents.append(utility_for(Attitude.NEUTRAL))
-    if Attitude.SEEKING in wanted:
-        agents += [utility_for(Attitude.SEEKING, value) for value in alphas]
+    agents = agents_of(
+        [Attitude(one_of(name, list(Attitude), "attitude")) for name in names],
+        [number(value, "alpha") for value in alphas],
+    )
     if not agents:
         raise UsageError("there are no agents to compare; give an attitude, and alpha for averse and seeking ones")
-    return agents
+    return sorted(set(agents), key=agent_order)
 
 
 def _names(steps: Iterable[PricedStep]) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import wraps
 from typing import Concatenate, ParamSpec, Protocol, TypeVar
 
-from statehtn.attitudes import AttitudeComparison, agents_of
+from statehtn.attitudes import AttitudeComparison, compared_agents
 from statehtn.expected import function
 from statehtn.interrupt import OnInterrupt, check_interrupt, returned
 from statehtn.limits import Limits
@@ -204,7 +204,7 @@ class Planner:
             InputError, UnsupportedError: as `plan`.
         """
         check_interrupt(interrupt)
-        agents = agents_of(alpha, attitudes)
+        agents = compared_agents(alpha, attitudes)
         wanted = [Settings.of(agent, solver, heuristic, search) for agent in agents]
         function(progress, "progress")
         results: list[Result] = []

@@ -18,10 +18,11 @@ from statehtn.decomposition import (
     paper_value,
     task_decomposition_graph,
 )
-from statehtn.decomposition.values import least_price, paper_unit
+from statehtn.decomposition.values import least_price
 from statehtn.model import CostDistribution, Problem
 from statehtn.reference import compute_utilities
 from statehtn.risk import Utility, utility_for
+from statehtn.risk.expected_utility import paper_unit
 from tests.strategies import problems, utilities
 
 

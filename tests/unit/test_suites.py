@@ -15,13 +15,15 @@ from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.experiments import suites
 from statehtn.experiments.run import Grid, Run
 from statehtn.experiments.suites import runs_of
+from statehtn.risk import utility_for
 from statehtn.settings import SOLVERS
 from tests.regression.paper_tables import DOMAINS, alpha_of, rows
 from tests.test_minimal import DOMAIN, PROBLEM
 
 
 def settings(runs: list[Run]) -> set[tuple[object, ...]]:
-    return {(run.attitude, run.alpha, run.solver, run.heuristic, run.search) for run in runs}
+    names = ("attitude", "alpha", "solver", "heuristic", "search")
+    return {tuple(run.to_dict()[name] for name in names) for run in runs}
 
 
 def test_what_does_not_exist_is_left_out(tree: Path) -> None:
@@ -54,13 +56,13 @@ def tree(tmp_path: Path) -> Path:
 def test_paper() -> None:
     runs = runs_of("paper", Grid(solvers=("state",)), DOMAINS)
     assert Counter(run.instance.domain for run in runs) == {"av": 25, "satellite": 48 + 64}
-    ours = {(run.instance.problem.upper(), run.attitude, run.alpha) for run in runs}
+    ours = {(run.instance.problem.upper(), run.settings.objective) for run in runs}
     for table in ("av_results", "satellite_results"):
         for row in rows(table):
-            assert (row["instance"].upper(), row["attitude"], alpha_of(row)) in ours
-    assert {run.alpha for run in runs if run.instance.domain == "satellite"} == {None, 0.1, 0.5, 0.9}
+            assert (row["instance"].upper(), utility_for(row["attitude"], alpha_of(row))) in ours
+    assert {run.settings.objective.alpha for run in runs if run.instance.domain == "satellite"} == {None, 0.1, 0.5, 0.9}
     assert all(Path(file).is_file() for run in runs for file in (run.instance.domain_file, run.instance.problem_file))
-    assert {run.solver for run in runs_of("paper", Grid(), DOMAINS)} == set(SOLVERS)
+    assert {run.settings.solver for run in runs_of("paper", Grid(), DOMAINS)} == set(SOLVERS)
 
 
 def test_satellite_large() -> None:
@@ -75,9 +77,9 @@ def test_satellite_large() -> None:
 
 
 def test_what_is_asked_for_counts_instead_of_the_suites_own() -> None:
-    asked = Grid(agents=(("averse", 2.0),), heuristics=("tdg",), searches=("astar", "greedy"), time_limit=5)
+    asked = Grid(agents=(utility_for("averse", 2.0),), heuristics=("tdg",), searches=("astar", "greedy"), time_limit=5)
     runs = runs_of("satellite-large", asked, DOMAINS)
-    assert settings([run for run in runs if run.solver == "state"]) == {
+    assert settings([run for run in runs if run.settings.solver == "state"]) == {
         ("averse", 2.0, "state", "tdg", "astar"),
         ("averse", 2.0, "state", "tdg", "greedy"),
     }
@@ -143,9 +145,9 @@ def test_a_file(tree: Path) -> None:
     assert settings(second) == {("neutral", None, "state", "auto", "astar")}
     assert {(run.repeat, run.time_limit, run.memory_limit) for run in second} == {(1, 5, 100)}
     assert [run.repeat for run in runs] == sorted(run.repeat for run in runs)
-    assert settings(runs_of(suite(tree, FILE), Grid(heuristics=("blind",), repeat=1, agents=(("neutral", None),)))) == {
-        ("neutral", None, "state", "blind", "astar")
-    }
+    assert settings(
+        runs_of(suite(tree, FILE), Grid(heuristics=("blind",), repeat=1, agents=(utility_for("neutral"),)))
+    ) == {("neutral", None, "state", "blind", "astar")}
 
 
 def test_a_file_on_the_command_line(tree: Path, capsys: pytest.CaptureFixture[str]) -> None:

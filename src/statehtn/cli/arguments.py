@@ -15,7 +15,7 @@ from statehtn.core.searches import SEARCHES, TAKES
 from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
-from statehtn.risk import Attitude
+from statehtn.risk import Attitude, Utility, utility_for
 from statehtn.settings import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
 
 
@@ -160,6 +160,15 @@ def _add_agent(parser: argparse.ArgumentParser) -> None:
         "--attitude", choices=[str(attitude) for attitude in Attitude], default="neutral", help="default: neutral"
     )
     agent.add_argument("--alpha", type=float, metavar="A", help="how much such an agent cares, per unit of cost")
+
+
+def agent_of(options: argparse.Namespace) -> Utility:
+    """Return the agent that the options name.
+
+    Raises:
+        UsageError: there is none like that.
+    """
+    return utility_for(options.attitude, options.alpha)
 
 
 def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.streams import emit
@@ -25,7 +26,7 @@ from statehtn.errors import UsageError, one_line
 from statehtn.model import Problem
 from statehtn.reference import build_rc_model
 from statehtn.reference.relaxed_graph import relaxed_model_graph
-from statehtn.risk import Utility, utility_for
+from statehtn.risk import Neutral, Utility
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -46,12 +47,12 @@ def run_graph(options: argparse.Namespace) -> ExitCode:
     if form not in FORMATS:
         endings = ", ".join(f".{name}" for name in FORMATS)
         raise UsageError(f"'{options.output}': expected a name that ends in {endings}, or --format beside it")
-    if options.kind != "gcv-tdg" and (options.attitude != "neutral" or options.alpha is not None):
+    agent = agent_of(options)
+    if options.kind != "gcv-tdg" and agent != Neutral():
         raise UsageError(f"values for an agent are shown on the gcv-tdg, not on the {options.kind}")
-    utility = utility_for(options.attitude, options.alpha)
     output = OutputFile(options.output, (options.domain, options.problem, options.costs))
     problem = read_problem(options)
-    graph = make_graph(problem, options.kind, utility)
+    graph = make_graph(problem, options.kind, agent)
     output.write(FORMATS[form](graph))
     if not output.is_stdout:
         sizes = f"{counted(len(graph), 'node')}, {counted(graph.number_of_edges(), 'edge')}"

@@ -7,6 +7,7 @@ import json
 import sys
 from functools import partial
 
+from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
@@ -19,7 +20,6 @@ from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
 from statehtn.pipeline import Session, solutions
 from statehtn.result import Result
-from statehtn.risk import utility_for
 from statehtn.settings import Settings
 
 
@@ -31,7 +31,7 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         OutputError: the plan was found and printed, but could not be written to a file.
     """
     settings = Settings.of(
-        utility_for(options.attitude, options.alpha),
+        agent_of(options),
         solver=options.solver,
         heuristic=options.heuristic,
         search=options.search,

@@ -8,6 +8,7 @@ import os
 from functools import partial
 from pathlib import Path
 
+from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
@@ -19,7 +20,6 @@ from statehtn.limits import Limits
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.pipeline import Session, solve_top
-from statehtn.risk import utility_for
 from statehtn.settings import TopSettings
 from statehtn.top_result import TopPlans
 
@@ -31,8 +31,7 @@ def run_top(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         OutputError: plans were found and printed, but could not be written to files.
     """
-    agent = utility_for(options.attitude, options.alpha)
-    settings = TopSettings.of(options.k, agent, distinct=options.distinct, heuristic=options.heuristic)
+    settings = TopSettings.of(options.k, agent_of(options), distinct=options.distinct, heuristic=options.heuristic)
     if options.output is not None:
         _check_folder(options.output)
     limits = Limits.starting_now(options.time_limit, options.memory_limit)

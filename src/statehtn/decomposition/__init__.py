@@ -13,7 +13,8 @@ from typing import Any
 
 from statehtn.decomposition.drawing import to_dot, to_graphml, to_svg
 from statehtn.decomposition.graphs import Kind, ground_task_decomposition_graph, task_decomposition_graph
-from statehtn.decomposition.values import least_risk_costs, paper_value, with_values
+from statehtn.decomposition.values import least_risk_costs, with_values
+from statehtn.risk.expected_utility import paper_value
 
 __all__ = [
     "Kind",

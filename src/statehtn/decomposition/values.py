@@ -7,26 +7,11 @@ import math
 from typing import TYPE_CHECKING
 
 from statehtn.decomposition.graphs import Kind
-from statehtn.model import CostLaw
 from statehtn.risk import Utility
 from statehtn.risk.cost_shifting import shifted_prices
 
 if TYPE_CHECKING:
     import networkx as nx
-
-
-def paper_value(utility: Utility, law: CostLaw) -> float:
-    """Return the value that the paper gives a primitive task (Algorithm 1, lines 3 and 5): not positive, maximised.
-
-    It is the expected utility for the neutral agent, and `a log10(a alpha EU)` for the others (equation 10, with the
-    sign that it needs): the risk cost's negative, in another unit.
-    """
-    return -utility.risk_cost(law) * paper_unit(utility)
-
-
-def paper_unit(utility: Utility) -> float:
-    """Return how much a risk cost of 1 is in the paper's values."""
-    return 1.0 if utility.alpha is None else utility.alpha / math.log(10)
 
 
 def least_price(graph: nx.MultiDiGraph[str], node: str, utility: Utility) -> float:

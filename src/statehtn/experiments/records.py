@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 from statehtn.experiments.run import Run
@@ -65,7 +65,8 @@ class Record:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything that is known, as JSON has it; `key` has the first columns of the row."""
-        return {"key": list(self.run.key), **asdict(self)}
+        known = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {"key": list(self.run.key), **known, "run": self.run.to_dict()}
 
 
 def _text(value: object) -> str:

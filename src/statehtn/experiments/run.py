@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from itertools import product
-from typing import cast
+from typing import Any
 
 from statehtn.errors import UsageError
 from statehtn.limits import Limits
-from statehtn.risk import AttitudeName, utility_for
+from statehtn.risk import Attitude, Neutral, Utility
+from statehtn.risk import agents_of as combined
 from statehtn.settings import Settings, mismatch
-
-Agent = tuple[str, float | None]
-"""An attitude to risk and its alpha, None for neutral."""
-NEUTRAL: tuple[Agent, ...] = (("neutral", None),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +29,7 @@ class Run:
     """A run of the planner: everything that it depends on. Limits are in seconds and in MB, None for no limit."""
 
     instance: Instance
-    attitude: str
-    alpha: float | None
-    solver: str
-    heuristic: str
-    search: str
+    settings: Settings
     repeat: int
     time_limit: float | None
     memory_limit: float | None
@@ -44,27 +37,45 @@ class Run:
     @property
     def key(self) -> tuple[str, ...]:
         """What tells the run from others: the first columns of its row. A search other than A* goes with the solver."""
+        settings = self.settings
+        agent = settings.objective
         return (
             self.instance.domain,
             self.instance.problem,
-            self.attitude,
-            "" if self.alpha is None else repr(self.alpha),
-            self.solver if self.search == "astar" else f"{self.solver}/{self.search}",
-            self.heuristic,
+            str(agent.attitude),
+            "" if agent.alpha is None else repr(agent.alpha),
+            settings.solver if settings.search == "astar" else f"{settings.solver}/{settings.search}",
+            settings.heuristic,
             str(self.repeat),
         )
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the run as the records have it."""
+        settings = self.settings
+        return {
+            "instance": asdict(self.instance),
+            "attitude": str(settings.objective.attitude),
+            "alpha": settings.objective.alpha,
+            "solver": settings.solver,
+            "heuristic": settings.heuristic,
+            "search": settings.search,
+            "repeat": self.repeat,
+            "time_limit": self.time_limit,
+            "memory_limit": self.memory_limit,
+        }
+
     def arguments(self) -> list[str]:
         """Return the command line of this run, without the program's name."""
-        optional = (
-            ("--alpha", self.alpha),
-            ("--time-limit", self.time_limit),
-            ("--memory-limit", self.memory_limit),
-        )
+        known = self.to_dict()
+        options = ("attitude", "alpha", "solver", "heuristic", "search", "time_limit", "memory_limit")
         return [
-            *("plan", "--json", "--attitude", self.attitude),
-            *("--solver", self.solver, "--heuristic", self.heuristic, "--search", self.search),
-            *(text for name, value in optional if value is not None for text in (name, repr(value))),
+            *("plan", "--json"),
+            *(
+                text
+                for name in options
+                if known[name] is not None
+                for text in (f"--{name.replace('_', '-')}", str(known[name]))
+            ),
             *("--", self.instance.domain_file, self.instance.problem_file),
         ]
 
@@ -83,7 +94,7 @@ class Grid:
         memory_limit: resident memory of each run in MB (10^6 bytes).
     """
 
-    agents: Sequence[Agent] = ()
+    agents: Sequence[Utility] = ()
     solvers: Sequence[str] = ()
     heuristics: Sequence[str] = ()
     searches: Sequence[str] = ()
@@ -108,29 +119,20 @@ class Grid:
         """
         Limits.starting_now(self.time_limit, self.memory_limit)
         wanted = [
-            (agent, Settings.of(utility_for(cast("AttitudeName", agent[0]), agent[1]), solver, heuristic, search))
-            for agent in self.agents or NEUTRAL
+            Settings.of(agent, solver, heuristic, search)
+            for agent in self.agents or (Neutral(),)
             for solver, heuristic, search in self.combinations()
             if not mismatch(solver, heuristic, search)
         ]
         runs = [
-            Run(
-                instance,
-                *agent,
-                settings.solver,
-                settings.heuristic,
-                settings.search,
-                repeat,
-                self.time_limit,
-                self.memory_limit,
-            )
+            Run(instance, settings, repeat, self.time_limit, self.memory_limit)
             for repeat, instance in product(range(1, (self.repeat or 1) + 1), instances)
-            for agent, settings in wanted
+            for settings in wanted
         ]
         return list(dict.fromkeys(runs))
 
 
-def agents_of(attitudes: Sequence[str], alphas: Sequence[float]) -> tuple[Agent, ...]:
+def agents_of(attitudes: Sequence[str], alphas: Sequence[float]) -> tuple[Utility, ...]:
     """Combine attitudes with alphas; a neutral agent has none, the others each of them.
 
     Raises:
@@ -139,4 +141,4 @@ def agents_of(attitudes: Sequence[str], alphas: Sequence[float]) -> tuple[Agent,
     curved = [attitude for attitude in attitudes if attitude != "neutral"]
     if bool(curved) != bool(alphas):
         raise UsageError(f"an agent that is {curved[0]} needs an alpha" if curved else "a neutral agent has no alpha")
-    return tuple((attitude, alpha) for attitude in attitudes for alpha in ([None] if attitude == "neutral" else alphas))
+    return combined(map(Attitude, attitudes), alphas)

@@ -9,20 +9,18 @@ from types import MappingProxyType
 
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import find_instances
-from statehtn.experiments.run import Agent, Grid, Instance, Run
+from statehtn.experiments.run import Grid, Instance, Run
 from statehtn.experiments.suite_file import Part, read_suite
+from statehtn.risk import Neutral, agents_of
 from statehtn.settings import SOLVERS, mismatch
 
 DEFAULTS = Grid(repeat=1, time_limit=60.0, memory_limit=4000.0)
 """What holds where neither the user nor the suite says anything."""
-AV_AGENTS: tuple[Agent, ...] = (
-    ("neutral", None),
-    *((attitude, alpha) for alpha in (0.1, 0.9) for attitude in ("averse", "seeking")),
-)
+AV_AGENTS = (Neutral(), *agents_of(("averse", "seeking"), (0.1,)), *agents_of(("averse", "seeking"), (0.9,)))
 """The agents of the paper's table on vehicles."""
-SATELLITE_AGENTS: tuple[Agent, ...] = (("neutral", None), ("averse", 0.5), ("seeking", 0.5))
+SATELLITE_AGENTS = agents_of(("neutral", "averse", "seeking"), (0.5,))
 """The agents of the paper's table on satellites."""
-OTHER_SATELLITE_AGENTS: tuple[Agent, ...] = AV_AGENTS[1:]
+OTHER_SATELLITE_AGENTS = AV_AGENTS[1:]
 """Those of its further experiments: the same problems, other intensities (section "Open Issues")."""
 AV_PROBLEMS = ("p1", "p2", "p3", "p4", "p5")
 SATELLITE_PROBLEMS = tuple(

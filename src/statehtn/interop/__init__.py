@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from statehtn.errors import UsageError
 from statehtn.model import Problem
 from statehtn.model.expect import expect_problem
-from statehtn.risk import Attitude, AttitudeName
+from statehtn.risk import Attitude, AttitudeName, utility_for
 
 if TYPE_CHECKING:
     from unified_planning.environment import Environment
@@ -106,7 +106,7 @@ def relax(
     _require()
     from statehtn.interop.relaxation import relaxed_problem
 
-    return relaxed_problem(expect_problem(problem), attitude, alpha)
+    return relaxed_problem(expect_problem(problem), utility_for(attitude, alpha))
 
 
 def relax_to_pddl(

@@ -19,17 +19,16 @@ from unified_planning.model.metrics import MinimizeActionCosts
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.model import GroundAction, GroundCostPart, GroundMethod, GroundProblem, Problem
 from statehtn.model.cost.blocks import exact
-from statehtn.risk import Attitude, AttitudeName, Utility, utility_for
+from statehtn.risk import Utility
 from statehtn.risk.cost_shifting import shifted_prices
 
 DIGITS = 10
 """Costs are rounded to so many significant digits, which is what UP's writer of PDDL holds."""
 
 
-def relaxed_problem(problem: Problem, attitude: Attitude | AttitudeName, alpha: float | None) -> UpProblem:
+def relaxed_problem(problem: Problem, objective: Utility) -> UpProblem:
     """Return the relaxed model of the initial node; described at `statehtn.relax`."""
-    utility = utility_for(attitude, alpha)
-    return _Builder(ground(problem, switches=PLAIN).to_model(), utility, f"{problem.name}-relaxed").build()
+    return _Builder(ground(problem, switches=PLAIN).to_model(), objective, f"{problem.name}-relaxed").build()
 
 
 def pddl(problem: UpProblem) -> tuple[str, str]:

@@ -14,8 +14,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from statehtn.decomposition.graphs import Kind
-from statehtn.decomposition.values import least_price, paper_unit
+from statehtn.decomposition.values import least_price
 from statehtn.risk import Utility
+from statehtn.risk.expected_utility import paper_unit
 
 if TYPE_CHECKING:
     import networkx as nx

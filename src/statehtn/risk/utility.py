@@ -102,8 +102,3 @@ class Utility(Protocol):
         It is computed in the log domain, so no size of exponent overflows.
         """
         ...
-
-
-def agent_name(utility: Utility) -> str:
-    """Return the agent with this utility in short, such as `neutral` or `averse 0.9`."""
-    return str(utility.attitude) if utility.alpha is None else f"{utility.attitude} {utility.alpha:g}"

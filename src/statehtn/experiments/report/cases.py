@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from statehtn.experiments.report.results import Outcome
-from statehtn.experiments.run import Agent
+from statehtn.experiments.report.results import Agent, Outcome
 from statehtn.experiments.summary import SOLVED
 from statehtn.model.status import Status
 from statehtn.settings import HEURISTIC_CHOICES, SOLVERS

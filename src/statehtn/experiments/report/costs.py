@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 from statehtn.experiments.report.cases import Case, Question, agent_order, agent_text, best_of, by_question
 from statehtn.experiments.report.plots import DASHES, Curve, Look, distributions
-from statehtn.experiments.report.results import Outcome
+from statehtn.experiments.report.results import Agent, Outcome
 from statehtn.experiments.report.tables import Cell, Column, Table, number
-from statehtn.experiments.run import Agent
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.total import TotalCost, total_cost
 

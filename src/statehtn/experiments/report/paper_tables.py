@@ -14,9 +14,8 @@ from functools import cache
 from pathlib import Path
 
 from statehtn.experiments.report.cases import Case, best_of, by_question
-from statehtn.experiments.report.results import Outcome
+from statehtn.experiments.report.results import Agent, Outcome
 from statehtn.experiments.report.tables import NOTHING, Cell, Column, Table, seconds, typeset
-from statehtn.experiments.run import Agent
 from statehtn.model.status import Status
 
 FOLDER = Path(__file__).parent / "paper"

@@ -11,10 +11,11 @@ from typing import Any
 
 from statehtn.errors import InputError, StateHtnError
 from statehtn.experiments.records import COLUMNS, KEY_COLUMNS, Row
-from statehtn.experiments.run import Agent
 from statehtn.model.cost.blocks import CostDistribution
 
 Key = tuple[str, ...]
+Agent = tuple[str, float | None]
+"""An agent as the table has it: its attitude to risk, and its alpha; None for neutral."""
 PHASES = ("parse_seconds", "ground_seconds", "search_seconds")
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
