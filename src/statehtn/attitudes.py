@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from typing import Any
 
-from statehtn.display.comparison import ComparedPlan, Reason, comparison_html, comparison_text
 from statehtn.errors import UsageError
 from statehtn.expected import items, number, one_of, whole_number
 from statehtn.found_plan import PricedStep
@@ -104,7 +102,7 @@ class AttitudeComparison:
         mine, its = self.results[agent], self.results[other]
         if not (mine and its):
             return ()
-        matcher = SequenceMatcher(None, _tokens(mine.steps), _tokens(its.steps), autojunk=False)
+        matcher = SequenceMatcher(None, tokens(mine.steps), tokens(its.steps), autojunk=False)
         found = []
         for tag, start, end, other_start, other_end in matcher.get_opcodes():
             if tag != "equal":
@@ -134,59 +132,17 @@ class AttitudeComparison:
         }
 
     def __str__(self) -> str:
-        return comparison_text(self._plans(), *self._columns(), self._reasons())
+        from statehtn.display.comparison import comparison_text
+
+        return comparison_text(self)
 
     def _repr_html_(self) -> str:
-        return comparison_html(self._plans(), *self._columns(), self._reasons())
+        from statehtn.display.comparison import comparison_html
+
+        return comparison_html(self)
 
     def _price(self, steps: Sequence[PricedStep], agent: Result) -> float:
         return plan_risk_cost((priced.law for priced in steps), agent.utility)
-
-    def _plans(self) -> list[ComparedPlan]:
-        return [
-            ComparedPlan(
-                agent,
-                str(result.status),
-                math.fsum(priced.law.least for priced in result.steps) if result else None,
-                result.expected_cost,
-                math.fsum(priced.law.most for priced in result.steps) if result else None,
-                prices,
-            )
-            for agent, result, prices in zip(self.agents, self.results, self.risk_costs, strict=True)
-        ]
-
-    def _columns(self) -> tuple[list[str], list[tuple[bool, list[str]]]]:
-        """Return a head for each plan that differs from the others, and the rows: shared by all, and as text."""
-        groups: dict[tuple[object, ...], list[int]] = {}
-        for index, result in enumerate(self.results):
-            if result:
-                groups.setdefault(tuple(_tokens(result.steps)), []).append(index)
-        heads = [", ".join(self.agents[index] for index in group) for group in groups.values()]
-        shown = [group[0] for group in groups.values()]
-        rows = []
-        for row in self.rows:
-            cells = [row[index] for index in shown]
-            texts = ["" if priced is None else str(priced.step) for priced in cells]
-            rows.append((len(set(_tokens(cells))) == 1, texts))
-        return heads, rows
-
-    def _reasons(self) -> list[Reason]:
-        """Say for each agent why it does not do what its neighbours do."""
-        last = len(self.results) - 1
-        pairs = [(agent, other) for agent in range(last + 1) for other in (agent - 1, agent + 1) if 0 <= other <= last]
-        return [
-            self._reason(agent, other, parts) for agent, other in pairs if (parts := self.differences(agent, other))
-        ]
-
-    def _reason(self, agent: int, other: int, parts: Sequence[Difference]) -> Reason:
-        mine, its = self.results[agent], self.results[other]
-        return Reason(
-            self.agents[agent],
-            self.agents[other],
-            self._price(mine.steps, mine),
-            self._price(its.steps, mine),
-            [(_names(part.own), part.own_cost, _names(part.other), part.other_cost) for part in parts],
-        )
 
 
 def compared_agents(alpha: float | Iterable[float], attitudes: Iterable[Attitude | AttitudeName]) -> list[Utility]:
@@ -210,7 +166,8 @@ def _names(steps: Iterable[PricedStep]) -> list[str]:
     return [str(priced.step) for priced in steps]
 
 
-def _tokens(steps: Iterable[PricedStep | None]) -> list[object]:
+def tokens(steps: Iterable[PricedStep | None]) -> list[object]:
+    """Return what makes steps of several agents the same: the action and the law of its cost."""
     return [None if priced is None else (priced.step, priced.law) for priced in steps]
 
 
@@ -220,7 +177,7 @@ def _merged(
     """Add a column with the steps of one more plan to rows of so many columns."""
     latest = [next(priced for priced in reversed(row) if priced is not None) for row in rows]
     found: list[list[PricedStep | None]] = []
-    matcher = SequenceMatcher(None, _tokens(latest), _tokens(steps), autojunk=False)
+    matcher = SequenceMatcher(None, tokens(latest), tokens(steps), autojunk=False)
     for _, start, end, new_start, new_end in matcher.get_opcodes():
         for offset in range(max(end - start, new_end - new_start)):
             row = rows[start + offset] if start + offset < end else [None] * width

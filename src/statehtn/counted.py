@@ -1,8 +1,15 @@
-"""Numbers of things in words."""
+"""Numbers of things in words, and long texts in short."""
 
 from __future__ import annotations
+
+MOST_CHARACTERS = 80
 
 
 def counted(number: int, noun: str) -> str:
     """Return a number and what it counts, such as `1 step` or `20 steps`; the noun has a regular plural."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def brief(text: str) -> str:
+    """Return a text, cut where it is long."""
+    return text if len(text) <= MOST_CHARACTERS else f"{text[: MOST_CHARACTERS - 3]}..."

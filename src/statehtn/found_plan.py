@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from statehtn.display.law import brief
-from statehtn.display.result import steps_html
+from statehtn.counted import brief
 from statehtn.errors import InternalError
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.cost.distribution import CostDistribution
@@ -72,6 +71,8 @@ class PricedSteps(tuple[PricedStep, ...]):
         return f"<{len(self)} priced steps{': ' if self else ''}{shown}{' ...' if len(self) > MOST_SHOWN else ''}>"
 
     def _repr_html_(self) -> str:
+        from statehtn.display.result import steps_html
+
         return steps_html(self)
 
 

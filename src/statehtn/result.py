@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
 from statehtn.counted import counted
-from statehtn.display.result import result_html, result_text
 from statehtn.effort import Statistics
 from statehtn.found_plan import PRICES, FoundPlan, PricedSteps
 from statehtn.model.plan import Plan
@@ -159,7 +158,11 @@ class Result(RunResult[Settings]):
         }
 
     def __str__(self) -> str:
+        from statehtn.display.result import result_text
+
         return result_text(self)
 
     def _repr_html_(self) -> str:
+        from statehtn.display.result import result_html
+
         return result_html(self)

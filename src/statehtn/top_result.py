@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, overload
 
 from statehtn.counted import counted
-from statehtn.display.top_plans import top_plans_html, top_plans_text
 from statehtn.found_plan import FoundPlan
 from statehtn.result import RunResult
 from statehtn.risk import agent_name
@@ -108,7 +107,11 @@ class TopPlans(RunResult[TopSettings], Sequence[RankedPlan]):
         }
 
     def __str__(self) -> str:
+        from statehtn.display.top_plans import top_plans_text
+
         return top_plans_text(self)
 
     def _repr_html_(self) -> str:
+        from statehtn.display.top_plans import top_plans_html
+
         return top_plans_html(self)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import chain
 
 import pytest
 from hypothesis import given, settings
@@ -12,9 +15,8 @@ from hypothesis import strategies as st
 import statehtn
 from statehtn.attitudes import AttitudeComparison, _merged
 from statehtn.cli import main
-from statehtn.display.comparison import ComparedPlan, Reason, comparison_text
 from statehtn.found_plan import PricedStep
-from statehtn.model import CostDistribution
+from statehtn.model import CostDistribution, CostLaw
 from tests.pages import ROOT
 
 AV = tuple(str(ROOT / "domains" / "av" / name) for name in ("domain.hddl", "p1.hddl"))
@@ -119,37 +121,54 @@ def test_rows_hold_every_plan_in_its_order(plans: list[list[PricedStep]]) -> Non
         assert len(rows) == len(plans[0])
 
 
+def _ways(*ways: Sequence[CostLaw]) -> statehtn.Problem:
+    """Return a problem with ten steps that all plans share, and then one of some ways, with a cost for each step."""
+    shared = [f"s{number}" for number in range(10)]
+    own = [[f"w{way}-{step}" for step in range(len(laws))] for way, laws in enumerate(ways)]
+    domain = "(:task choose) " + " ".join(f"(:action {name})" for name in (*shared, *chain(*own)))
+    for way, names in enumerate(own):
+        domain += f" (:method m{way} :task (choose) :ordered-subtasks (and {' '.join(f'({name})' for name in names)}))"
+    subtasks = " ".join(f"({name})" for name in (*shared, "choose"))
+    problem = f"(define (problem p) (:htn :ordered-subtasks (and {subtasks})) (:init))"
+    builder = statehtn.ProblemBuilder.of(statehtn.read_hddl_text(f"(define (domain d) {domain})", problem))
+    for name, law in zip(chain(*own), chain(*ways), strict=True):
+        builder.set_cost(name, law)
+    return builder.build()
+
+
 def test_long_stretches_are_shortened() -> None:
-    plans = [ComparedPlan("a", "optimal", 1, 1, 1, [1, 1]), ComparedPlan("b", "solved", 1, 1, math.inf, [1, 1])]
-    rows = [(True, [f"({number})"] * 2) for number in range(10)] + [(False, ["(x)", ""])]
-    lines = comparison_text(plans, ["a", "b"], rows, []).splitlines()
-    assert [line.split() for line in lines[2:10]] == [
-        *([f"({number})"] * 2 for number in range(3)),
+    """The risk has a mean of 1, is worth about half of that to a seeking agent, and has no upper end."""
+    certain = CostDistribution.certain(0.4)
+    risk = CostDistribution.from_scipy(pytest.importorskip("scipy.stats").lomax(2))
+    problem = _ways([certain, certain], [risk])
+    comparison = statehtn.compare_attitudes(problem, attitudes=["neutral", "seeking"])
+    lines = [line.split() for line in str(comparison).splitlines()]
+    assert lines[2:11] == [
+        *([f"(s{number})"] * 2 for number in range(3)),
         ["...", "4", "more", "that", "all", "share"],
-        *([f"({number})"] * 2 for number in range(7, 10)),
-        ["|", "(x)"],
+        *([f"(s{number})"] * 2 for number in range(7, 10)),
+        ["|", "(w0-0)", "(w1-0)"],
+        ["|", "(w0-1)"],
     ]
-    assert [line.split() for line in lines[-4:-2]] == [
-        ["of", "the", "a", "1", "1", "1", "1*", "1"],
-        ["of", "the", "b", "1", "1", "unbounded", "1*", "1"],
-    ]
+    rows = [line[2:] for line in lines if line[:2] == ["of", "the"]]
+    assert rows[0] == ["neutral", "0.8", "0.8", "0.8", "0.8*", "0.8"]
+    assert rows[1][:-1] == ["seeking", "1", "0", "1", "unbounded", "1"]
+    assert "*" in rows[1][-1]
+    unproven = [replace(result, status=statehtn.Status.SOLVED) for result in comparison.results]
+    assert str(AttitudeComparison(tuple(unproven))).count("*") == 1  # that of the note
 
 
 def test_plans_that_tie_are_equally_good() -> None:
-    """For the averse agent the second plan is as good as its own, for the neutral one it is dearer in the 7th digit."""
-    plans = [
-        ComparedPlan("averse", "optimal", 1, 2, 4, [3.434, 2.5000001]),
-        ComparedPlan("neutral", "optimal", 1, 2, 4, [3.434 * (1 + 1e-12), 2.5]),
-    ]
-    reasons = [
-        Reason("averse", "neutral", 3.434, 3.434 * (1 + 1e-12), [(["(flip)"], 3.434, ["(toss)"], 3.434)]),
-        Reason("neutral", "averse", 2.5, 2.5000001, [(["(toss)"], 2.5, ["(flip)"], 2.5000001)]),
-    ]
-    lines = comparison_text(plans, ["averse", "neutral"], [(False, ["(flip)", "(toss)"])], reasons).splitlines()
-    assert [line.split()[-2:] for line in lines if line.startswith("of the")] == [["3.434*", "2.5"], ["3.434*", "2.5*"]]
+    """For the averse agent the gamble is as good as its own plan, for the neutral one its plan is dearer in a digit."""
+    spread = 0.000447
+    gamble = CostDistribution.of([(0.5, 2.5 - spread), (0.5, 2.5 + spread)])
+    certain = CostDistribution.certain(2.5 + math.log(math.cosh(spread)) - 2.5e-10)
+    comparison = statehtn.compare_attitudes(_ways([certain], [gamble]), attitudes=["averse", "neutral"])
+    lines = str(comparison).splitlines()
+    assert [line.split()[-2:] for line in lines if line.startswith("of the")] == [["2.5*", "2.5"], ["2.5*", "2.5*"]]
     assert [line for line in lines if "own" in line] == [
-        "averse: the plan of neutral is as good as its own, 3.434, by its own measure",
-        "neutral instead of averse: 2.5, not 2.5000001, by its own measure",
+        "averse 1: the plan of neutral is as good as its own, 2.5, by its own measure",
+        "neutral instead of averse 1: 2.5, not 2.5000001, by its own measure",
     ]
 
 

@@ -40,7 +40,7 @@ def test_a_result_prints_as_a_table(result: Result) -> None:
 def test_results_without_a_plan_print(result: Result) -> None:
     from dataclasses import replace
 
-    stopped = replace(result, plan=None, steps=(), status=statehtn.Status.TIME_LIMIT, bound=7.5)
+    stopped = replace(result, found=None, status=statehtn.Status.TIME_LIMIT, bound=7.5)
     assert str(stopped).splitlines() == [
         "status: time-limit (risk-seeking, alpha 0.9)",
         "every plan has a certainty equivalent of at least 7.5",

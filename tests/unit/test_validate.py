@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from statehtn.cli.tables import readable_validation
+from statehtn.display.validation import readable_validation
 from statehtn.errors import InputError
 from statehtn.model import (
     TRUE,

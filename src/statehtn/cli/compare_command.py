@@ -18,7 +18,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import STDOUT
 from statehtn.cli.streams import OutputError, emit, say
-from statehtn.cli.tables import readable_summaries
+from statehtn.display.summaries import readable_summaries
 from statehtn.errors import InputError, UsageError, one_line
 from statehtn.experiments.cluster import execute_on_cluster
 from statehtn.experiments.record_files import RecordFiles, csv_line

@@ -99,7 +99,7 @@ def _print(result: Result, options: argparse.Namespace, beside: bool) -> None:
         if result.steps and not beside:
             emit("\n".join(str(priced.step) for priced in result.steps))
     else:
-        from statehtn.cli.tables import readable_result
+        from statehtn.display.result import readable_result
 
         if beside:
             say(readable_result(result, sys.stderr), raw=True)

@@ -96,6 +96,6 @@ def _print(result: TopPlans, options: argparse.Namespace) -> None:
         for ranked in result:
             emit(" ".join(str(priced.step) for priced in ranked.steps))
     else:
-        from statehtn.cli.tables import readable_top_plans
+        from statehtn.display.top_plans import readable_top_plans
 
         emit(readable_top_plans(result), raw=True)

@@ -24,7 +24,7 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     Raises:
         StateHtnError: a file cannot be read.
     """
-    from statehtn.cli.tables import readable_validation
+    from statehtn.display.validation import readable_validation
 
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
     steps: tuple[Step, ...] = ()

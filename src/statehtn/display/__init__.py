@@ -1,1 +1,1 @@
-"""How results look: trees and tables as text, HTML and pictures. Knows nothing of planning."""
+"""How results look: trees and tables as text, in a terminal, as HTML and as pictures."""

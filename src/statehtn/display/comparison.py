@@ -1,13 +1,15 @@
-"""Plans of several agents side by side, as text and as HTML. Knows nothing of planning."""
+"""Plans of several agents side by side, as text and as HTML."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from html import escape
 
+from statehtn.attitudes import AttitudeComparison, Difference, tokens
 from statehtn.display.table import Column, Table
+from statehtn.found_plan import PricedStep
+from statehtn.model.status import Status
 
 TIE = 1e-9
 """Plans whose prices for an agent differ by no more than this part of them are equally good for it."""
@@ -19,84 +21,40 @@ NOTES = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class ComparedPlan:
-    """What is shown of an agent's plan; costs are None where it has none.
-
-    Args:
-        agent: its name.
-        status: how its planning ended.
-        least: the least total cost that is possible.
-        expected: the expected total cost.
-        most: the largest total cost that is possible.
-        prices: what the plan costs each agent.
-    """
-
-    agent: str
-    status: str
-    least: float | None
-    expected: float | None
-    most: float | None
-    prices: Sequence[float | None]
+def comparison_text(comparison: AttitudeComparison) -> str:
+    """Return the plans side by side, a table of their costs to every agent, and the reasons, in lines."""
+    table = _side_by_side(comparison)
+    blocks = [] if table is None else [table.to_text()]
+    blocks.append("\n".join((_costs(comparison).to_text(), *NOTES)))
+    return "\n\n".join((*blocks, *_reasons(comparison)))
 
 
-@dataclass(frozen=True, slots=True)
-class Reason:
-    """Why an agent does not do what another one does.
-
-    Args:
-        agent: its name.
-        other: the other's.
-        cost: what its own plan costs it.
-        other_cost: what the other's plan would cost it.
-        parts: for each place where the plans part: its own actions and what they cost it, the other's and what they
-            would cost it.
-    """
-
-    agent: str
-    other: str
-    cost: float
-    other_cost: float
-    parts: Sequence[tuple[Sequence[str], float, Sequence[str], float]]
-
-
-def comparison_text(
-    plans: Sequence[ComparedPlan],
-    heads: Sequence[str],
-    rows: Sequence[tuple[bool, Sequence[str]]],
-    reasons: Sequence[Reason],
-) -> str:
-    """Return the plans side by side, a table of their costs to every agent, and the reasons, in lines.
-
-    Args:
-        plans: one for each agent.
-        heads: the agents of each plan that differs from the others.
-        rows: whether all these plans are the same in the row, and a cell for each.
-    """
-    blocks = [_side_by_side(heads, rows).to_text()] if rows else []
-    blocks.append("\n".join((_costs(plans).to_text(), *NOTES)))
-    blocks += ["\n".join(_reason_lines(reason)) for reason in reasons]
-    return "\n\n".join(blocks)
-
-
-def comparison_html(
-    plans: Sequence[ComparedPlan],
-    heads: Sequence[str],
-    rows: Sequence[tuple[bool, Sequence[str]]],
-    reasons: Sequence[Reason],
-) -> str:
+def comparison_html(comparison: AttitudeComparison) -> str:
     """Return what `comparison_text` does as HTML for a notebook, with the reasons folded."""
-    parts = [_side_by_side(heads, rows).to_html()] if rows else []
-    parts += [_costs(plans).to_html(), *(f"<div>{escape(note)}</div>" for note in NOTES)]
-    if reasons:
-        text = escape("\n\n".join("\n".join(_reason_lines(reason)) for reason in reasons))
+    table = _side_by_side(comparison)
+    parts = [] if table is None else [table.to_html()]
+    parts += [_costs(comparison).to_html(), *(f"<div>{escape(note)}</div>" for note in NOTES)]
+    if reasons := list(_reasons(comparison)):
+        text = escape("\n\n".join(reasons))
         parts.append(f'<details><summary>why</summary><pre style="line-height: 1.25">{text}</pre></details>')
     return f"<div>{''.join(parts)}</div>"
 
 
-def _side_by_side(heads: Sequence[str], rows: Sequence[tuple[bool, Sequence[str]]]) -> Table:
-    columns = (Column(""), *(Column(head) for head in heads))
-    return Table(columns, list(_shortened(rows, len(heads))))
+def _side_by_side(comparison: AttitudeComparison) -> Table | None:
+    """Return the plans that differ from each other, with all their agents as heads; None where there is no plan."""
+    groups: dict[tuple[object, ...], list[int]] = {}
+    for index, result in enumerate(comparison.results):
+        if result:
+            groups.setdefault(tuple(tokens(result.steps)), []).append(index)
+    heads = [", ".join(comparison.agents[index] for index in group) for group in groups.values()]
+    rows: list[tuple[bool, list[str]]] = []
+    for row in comparison.rows:
+        cells = [row[group[0]] for group in groups.values()]
+        texts = ["" if priced is None else str(priced.step) for priced in cells]
+        rows.append((len(set(tokens(cells))) == 1, texts))
+    if not rows:
+        return None
+    return Table((Column(""), *map(Column, heads)), list(_shortened(rows, len(heads))))
 
 
 def _shortened(rows: Sequence[tuple[bool, Sequence[str]]], width: int) -> Iterator[Sequence[str]]:
@@ -114,41 +72,55 @@ def _shortened(rows: Sequence[tuple[bool, Sequence[str]]], width: int) -> Iterat
         start = end
 
 
-def _costs(plans: Sequence[ComparedPlan]) -> Table:
-    heads = ("least", "expected", "most", *(f"for {plan.agent}" for plan in plans))
+def _costs(comparison: AttitudeComparison) -> Table:
+    heads = ("least", "expected", "most", *(f"for {agent}" for agent in comparison.agents))
+    prices, results = comparison.risk_costs, comparison.results
+    proven = [prices[i][i] if result.status is Status.OPTIMAL else None for i, result in enumerate(results)]
     rows = []
-    own = [plan.prices[index] if plan.status == "optimal" else None for index, plan in enumerate(plans)]
-    for plan in plans:
-        if plan.expected is None:
-            rows.append((f"of the {plan.agent}", *("" for _ in heads[:-1]), plan.status))
-            continue
-        prices = [
-            f"{_number(price)}{'*' if _are_equal(price, best) else ' '}"
-            for price, best in zip(plan.prices, own, strict=True)
-        ]
-        rows.append((f"of the {plan.agent}", _number(plan.least), _number(plan.expected), _number(plan.most), *prices))
+    for agent, result, row in zip(comparison.agents, results, prices, strict=True):
+        cells = ["", "", "", *("" for _ in proven[1:]), str(result.status)]
+        if result:
+            laws = [priced.law for priced in result.steps]
+            ends = math.fsum(law.least for law in laws), result.expected_cost, math.fsum(law.most for law in laws)
+            marks = ("*" if _are_equal(price, best) else " " for price, best in zip(row, proven, strict=True))
+            cells = [*map(_number, ends), *map("".join, zip(map(_number, row), marks, strict=True))]
+        rows.append((f"of the {agent}", *cells))
     return Table((Column("cost of the plan"), *(Column(head, is_number=True) for head in heads)), rows)
 
 
-def _reason_lines(reason: Reason) -> Iterator[str]:
-    if _are_equal(reason.cost, reason.other_cost):
-        same = f"the plan of {reason.other} is as good as its own, {_number(reason.cost)}, by its own measure"
-        yield f"{reason.agent}: {same}"
+def _reasons(comparison: AttitudeComparison) -> Iterator[str]:
+    """Say for each agent why it does not do what its neighbours do, in lines."""
+    last = len(comparison.results) - 1
+    for agent in range(last + 1):
+        for other in (agent - 1, agent + 1):
+            if 0 <= other <= last and (parts := comparison.differences(agent, other)):
+                yield "\n".join(_reason_lines(comparison, agent, other, parts))
+
+
+def _reason_lines(comparison: AttitudeComparison, agent: int, other: int, parts: Sequence[Difference]) -> Iterator[str]:
+    names, prices = comparison.agents, comparison.risk_costs
+    cost, other_cost = prices[agent][agent], prices[other][agent]
+    assert cost is not None
+    assert other_cost is not None
+    if _are_equal(cost, other_cost):
+        same = f"the plan of {names[other]} is as good as its own, {_number(cost)}, by its own measure"
+        yield f"{names[agent]}: {same}"
         return
-    price, other_price = _apart(reason.cost, reason.other_cost)
-    yield f"{reason.agent} instead of {reason.other}: {price}, not {other_price}, by its own measure"
-    for own, cost, other, other_cost in reason.parts:
-        yield f"  {_number(cost):>8}  {_actions(own)}"
-        yield f"  {_number(other_cost):>8}  instead of {_actions(other)}"
+    price, other_price = _apart(cost, other_cost)
+    yield f"{names[agent]} instead of {names[other]}: {price}, not {other_price}, by its own measure"
+    for part in parts:
+        yield f"  {_number(part.own_cost):>8}  {_actions(part.own)}"
+        yield f"  {_number(part.other_cost):>8}  instead of {_actions(part.other)}"
 
 
 def _are_equal(price: float | None, other: float | None) -> bool:
     return price is not None and other is not None and math.isclose(price, other, rel_tol=TIE)
 
 
-def _actions(actions: Sequence[str]) -> str:
-    if not actions:
+def _actions(steps: Sequence[PricedStep]) -> str:
+    if not steps:
         return "nothing"
+    actions = [str(priced.step) for priced in steps]
     hidden = len(actions) - 2 * EDGE
     if hidden < 2:
         return " ".join(actions)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy
 
 from statehtn.display.axes import new_or_given
+from statehtn.model.cost.law import CostLaw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,22 +19,11 @@ CURVE = "distribution function of a cost"  # what marks the curves of this modul
 LABEL_WIDTH = 26  # characters, so that a legend fits into small axes
 
 
-def plot_law(
-    costs: Sequence[float],
-    probabilities: Sequence[float],
-    mean: float,
-    worst: tuple[float, float],
-    ax: Axes | None,
-    label: str,
-    color: str | None,
-) -> Axes:
+def plot_law(law: CostLaw, ax: Axes | None, label: str, color: str | None) -> Axes:
     """Draw a distribution function in steps, with its mean and its worst cases, beside those that are there already.
 
     Args:
-        costs: ascending.
-        probabilities: of each cost or less.
-        mean: of the law.
-        worst: the cost that is not exceeded in 95% of all cases, and the mean of the other 5%.
+        law: of a cost.
         ax: where to draw; a new figure where it is None.
         label: the law's name in the legend.
         color: of all its lines; the next one of the colour cycle where it is None.
@@ -41,9 +31,11 @@ def plot_law(
     Raises:
         UsageError: matplotlib is not installed, or these are no axes.
     """
+    costs, probabilities = law.curve()
+    quantile, cvar = law.quantile(0.95), law.cvar(0.95)
     ax = new_or_given(ax, figsize=(6.4, 3.6), layout="constrained")
     others = [line for line in ax.get_lines() if line.get_gid() == CURVE]
-    left, right = _limits(costs, worst[1], ax if others else None)
+    left, right = _limits(costs, cvar, ax if others else None)
     (curve,) = ax.step(
         [left, *costs, right],
         [0.0, *probabilities, probabilities[-1]],
@@ -54,9 +46,9 @@ def plot_law(
         color=color,
     )
     for cost, style, name in (
-        (mean, "-", "mean"),
-        (worst[0], "--", "95% quantile"),
-        (worst[1], ":", "mean of worst 5%"),
+        (law.mean, "-", "mean"),
+        (quantile, "--", "95% quantile"),
+        (cvar, ":", "mean of worst 5%"),
     ):
         ax.axvline(cost, color=curve.get_color(), linewidth=1, linestyle=style, label=f"{name} {cost:.4g}")
     for other in others:

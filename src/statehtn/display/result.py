@@ -1,13 +1,30 @@
-# ruff: noqa: D102 (the protocols repeat what the docstrings of `Result` say)
-"""Results of planning runs as text and as HTML."""
+"""Results of planning runs as text, in a terminal and as HTML."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from html import escape
-from typing import Protocol
+from typing import TextIO
 
 from statehtn.display.table import Column, Table
+from statehtn.display.terminal import Summary, rendered
+from statehtn.display.words import (
+    ENDINGS,
+    FAILURE,
+    STOPS,
+    STYLES,
+    Labelled,
+    agent,
+    effort_rows,
+    head,
+    log10_label,
+    number,
+)
+from statehtn.found_plan import PricedStep
+from statehtn.model.cost.law import CostLaw
+from statehtn.model.status import Status
+from statehtn.result import Result
 
 COLUMNS = (
     Column("", is_number=True),
@@ -16,62 +33,20 @@ COLUMNS = (
     Column("expected", is_number=True),
     Column("certainty equivalent", is_number=True),
 )
+NOT_VALIDATED = "no: the run ended before the plan was checked; 'statehtn validate' checks a plan file (--output)"
 
 
-class ShownStep(Protocol):
-    """What is shown of an action of a plan; `step` and `law` are shown as they print."""
-
-    @property
-    def step(self) -> object: ...
-    @property
-    def law(self) -> object: ...
-    @property
-    def expected_cost(self) -> float: ...
-    @property
-    def risk_cost(self) -> float: ...
-
-
-class ShownPlan(Protocol):
-    """What is shown of a plan besides its actions."""
-
-    @property
-    def decomposition(self) -> object: ...
-
-
-class ShownResult(Protocol):
-    """What is shown of a result; see `statehtn.Result`."""
-
-    @property
-    def status(self) -> object: ...
-    @property
-    def attitude(self) -> str: ...
-    @property
-    def alpha(self) -> float | None: ...
-    @property
-    def plan(self) -> ShownPlan | None: ...
-    @property
-    def steps(self) -> Sequence[ShownStep]: ...
-    @property
-    def expected_cost(self) -> float | None: ...
-    @property
-    def risk_cost(self) -> float | None: ...
-    @property
-    def expected_utility(self) -> str | None: ...
-    @property
-    def lower_bound(self) -> float | None: ...
-
-
-def result_text(result: ShownResult) -> str:
+def result_text(result: Result) -> str:
     """Return the status, a table of the actions with their costs, and the plan's price, in lines."""
-    lines = [_head(result)]
+    lines = [head(result)]
     if result.plan is not None:
         lines.append(_table(result).to_text())
     return "\n".join([*lines, *_notes(result)])
 
 
-def result_html(result: ShownResult) -> str:
+def result_html(result: Result) -> str:
     """Return what `result_text` does as HTML for a notebook, and the decomposition, folded."""
-    parts = [f"<b>{escape(_head(result))}</b>"]
+    parts = [f"<b>{escape(head(result))}</b>"]
     if result.plan is not None:
         parts.append(_table(result).to_html())
     parts += [f"<div>{escape(note)}</div>" for note in _notes(result)]
@@ -81,39 +56,82 @@ def result_html(result: ShownResult) -> str:
     return f"<div>{''.join(parts)}</div>"
 
 
-def steps_html(steps: Sequence[ShownStep]) -> str:
+def steps_html(steps: Sequence[PricedStep]) -> str:
     """Return a table of steps with their costs as HTML for a notebook."""
     return Table(COLUMNS, _rows(steps)).to_html()
 
 
-def _head(result: ShownResult) -> str:
-    agent = result.attitude if result.alpha is None else f"{result.attitude}, alpha {result.alpha:g}"
-    return f"status: {result.status} (risk-{agent})"
-
-
-def _table(result: ShownResult) -> Table:
-    return Table(
-        COLUMNS, _rows(result.steps), ("", "in all", "", _number(result.expected_cost), _number(result.risk_cost))
-    )
-
-
-def _rows(steps: Sequence[ShownStep]) -> list[tuple[str, ...]]:
-    return [
-        (str(number), str(priced.step), str(priced.law), _number(priced.expected_cost), _number(priced.risk_cost))
-        for number, priced in enumerate(steps, 1)
-    ]
-
-
-def _notes(result: ShownResult) -> list[str]:
+def readable_result(result: Result, stream: TextIO) -> str:
+    """Return the plan with its price, what was proven, and the effort, in the form for a stream."""
+    summary = Summary(_summary_rows(result), STYLES.get(result.status, FAILURE))
     if result.plan is None:
-        if result.lower_bound is None:
-            return []
-        return [f"every plan has a certainty equivalent of at least {_number(result.lower_bound)}"]
+        return rendered([summary], stream=stream)
+    laws = _range([priced.law for priced in result.steps])
+    return rendered([_table(result, laws, f"Plan for {agent(result)}"), summary], stream=stream)
+
+
+def _table(result: Result, laws: str = "", title: str = "") -> Table:
+    totals = ("", "in all", laws, number(result.expected_cost), number(result.risk_cost))
+    return Table(COLUMNS, _rows(result.steps), totals, title)
+
+
+def _rows(steps: Sequence[PricedStep]) -> list[tuple[str, ...]]:
+    texts: dict[int, tuple[str, ...]] = {}  # of priced steps, which long plans repeat
+    rows = []
+    for index, priced in enumerate(steps, 1):
+        if id(priced) not in texts:
+            prices = number(priced.expected_cost), number(priced.risk_cost)
+            texts[id(priced)] = (str(priced.step), str(priced.law), *prices)
+        rows.append((str(index), *texts[id(priced)]))
+    return rows
+
+
+def _range(laws: Sequence[CostLaw]) -> str:
+    least = sum(law.least for law in laws)
+    most = sum(law.most for law in laws)
+    if math.isinf(most):
+        return f"at least {number(least)}"
+    return number(least) if least == most else f"{number(least)} to {number(most)}"
+
+
+def _notes(result: Result) -> list[str]:
+    if result.plan is None:
+        return [] if result.lower_bound is None else [_at_least(result.lower_bound)]
     notes = [f"expected utility {result.expected_utility}"]
-    if str(result.status) != "optimal" and result.lower_bound is not None:
-        notes.append(f"no plan has a certainty equivalent below {_number(result.lower_bound)}")
+    if result.status is not Status.OPTIMAL and result.lower_bound is not None:
+        notes.append(f"no plan has a certainty equivalent below {number(result.lower_bound)}")
     return notes
 
 
-def _number(value: float | None) -> str:
-    return "" if value is None else f"{value:.10g}"
+def _at_least(bound: float) -> str:
+    return f"every plan has a certainty equivalent of at least {number(bound)}"
+
+
+def _summary_rows(result: Result) -> Labelled:
+    found = result.plan is not None
+    why = f" ({STOPS[result.stopped]})" if found and result.stopped is not None else ""
+    rows = [("status", ENDINGS[result.status] + why)]
+    if found and not result.validated:
+        rows.append(("validated", NOT_VALIDATED))
+    if found:
+        rows.append(("expected cost", number(result.expected_cost)))
+        worth = f"{number(result.risk_cost)} (this agent would as soon pay that for certain)"
+        rows.append(("certainty equivalent", worth))
+        rows.append(("expected utility", result.expected_utility or ""))
+    if result.log10_expected_utility is not None:
+        rows.append((log10_label(result), number(result.log10_expected_utility)))
+    rows += _bound_row(result)
+    rows.append(("problem class", f"{result.problem_class} (solver {result.solver}, heuristic {result.heuristic})"))
+    return rows + effort_rows(result.statistics)
+
+
+def _bound_row(result: Result) -> Labelled:
+    bound, cost = result.lower_bound, result.risk_cost
+    if bound is None:
+        return []
+    if cost is None:
+        return [("proven", _at_least(bound))]
+    gap = cost - bound
+    if result.status is Status.OPTIMAL:
+        return [("proven", f"to within {gap:.1g} of the certainty equivalent (rounding)")] if gap > 0 else []
+    return [("proven", f"{_at_least(bound)} (gap {gap:.4g})")]

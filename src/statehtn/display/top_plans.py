@@ -1,15 +1,28 @@
-# ruff: noqa: D102 (the protocols repeat what the docstrings of `RankedPlan` and `TopPlans` say)
-"""The best plans of a problem as text and as HTML."""
+"""The best plans of a problem as text, in a terminal and as HTML."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from html import escape
 from itertools import takewhile
-from typing import Protocol
 
 from statehtn.counted import counted
 from statehtn.display.table import Column, Table
+from statehtn.display.terminal import Summary, rendered
+from statehtn.display.words import (
+    ENDINGS,
+    FAILURE,
+    STOPS,
+    STYLES,
+    Labelled,
+    agent,
+    effort_rows,
+    head,
+    log10_label,
+    number,
+)
+from statehtn.model.status import Status
+from statehtn.top_result import RankedPlan, TopPlans
 
 COLUMNS = (
     Column("", is_number=True),
@@ -23,69 +36,84 @@ GAP = "…"
 """Stands for what is told elsewhere."""
 
 
-class ShownStep(Protocol):
-    """What is shown of an action of a plan: `step`, as it prints."""
-
-    @property
-    def step(self) -> object: ...
-
-
-class ShownPlan(Protocol):
-    """What is shown of a plan."""
-
-    @property
-    def rank(self) -> int: ...
-    @property
-    def is_proven(self) -> bool: ...
-    @property
-    def steps(self) -> Sequence[ShownStep]: ...
-    @property
-    def length(self) -> int: ...
-    @property
-    def expected_cost(self) -> float: ...
-    @property
-    def risk_cost(self) -> float: ...
-    @property
-    def expected_utility(self) -> str: ...
-
-
-class ShownPlans(Protocol):
-    """What is shown of a search for several plans; see `statehtn.TopPlans`."""
-
-    @property
-    def status(self) -> object: ...
-    @property
-    def attitude(self) -> str: ...
-    @property
-    def alpha(self) -> float | None: ...
-    @property
-    def plans(self) -> Sequence[ShownPlan]: ...
-    @property
-    def proven(self) -> int: ...
-    @property
-    def is_all(self) -> bool: ...
-
-
-def top_plans_text(result: ShownPlans) -> str:
+def top_plans_text(result: TopPlans) -> str:
     """Return the status and a table of the plans, in lines; actions that all share at their ends are told once."""
-    lines = [_head(result)]
-    if result.plans:
-        lines.append(_table(result).to_text())
-    return "\n".join(lines)
+    return "\n".join([_head(result), *([_table(result).to_text()] if result.plans else [])])
 
 
-def top_plans_html(result: ShownPlans) -> str:
+def top_plans_html(result: TopPlans) -> str:
     """Return what `top_plans_text` does as HTML for a notebook."""
     table = _table(result).to_html() if result.plans else ""
     return f"<div><b>{escape(_head(result))}</b>{table}</div>"
 
 
-def compact_actions(plans: Sequence[ShownPlan]) -> tuple[str, list[str]]:
+def readable_top_plans(result: TopPlans) -> str:
+    """Return the plans' values, their actions where they differ, what was proven, and the effort."""
+    problem_class = f"{result.problem_class} (solver state, heuristic {result.heuristic})"
+    rows = [*_proven_rows(result), ("problem class", problem_class), *effort_rows(result.statistics)]
+    summary = Summary(rows, STYLES.get(result.status, FAILURE))
+    return rendered([_values(result), _actions(result.plans), summary] if result.plans else [summary])
+
+
+def _head(result: TopPlans) -> str:
+    count = "all plans" if result.is_all else f"{result.proven} proven"
+    return f"{head(result)}, {counted(len(result.plans), 'plan')}, {count}"
+
+
+def _table(result: TopPlans) -> Table:
+    frame, parts = _compact(result.plans)
+    rows = [
+        (
+            str(plan.rank),
+            *(number(plan.risk_cost), number(plan.expected_cost), plan.expected_utility),
+            *(str(plan.length), part),
+        )
+        for plan, part in zip(result.plans, parts, strict=True)
+    ]
+    return Table(COLUMNS, [("", "", "", "", "", frame), *rows] if frame else rows)
+
+
+def _values(result: TopPlans) -> Table:
+    """Return a table of what the plans are worth; for a neutral agent three columns would say the same."""
+    is_neutral = result.attitude == "neutral"
+    worth = [] if is_neutral else ["certainty equivalent"]
+    log10 = [] if is_neutral else [log10_label(result)]
+    heads = ("", *worth, "expected cost", "expected utility", *log10, "actions", "")
+    rows = [
+        (
+            str(plan.rank),
+            *(() if is_neutral else (number(plan.risk_cost),)),
+            *(number(plan.expected_cost), plan.expected_utility),
+            *(() if is_neutral else (number(plan.log10_expected_utility),)),
+            *(str(plan.length), "" if plan.is_proven else "not proven"),
+        )
+        for plan in result
+    ]
+    return Table([Column(text, is_number=True) for text in heads], rows, title=f"{_count(result)} for {agent(result)}")
+
+
+def _count(result: TopPlans) -> str:
+    number = len(result)
+    if result.proven < number:
+        return "The best plan so far" if number == 1 else f"The best {number} plans so far"
+    if result.is_all:
+        return "The only plan" if number == 1 else f"All {number} plans"
+    return "The best plan" if number == 1 else f"The {number} best plans"
+
+
+def _actions(plans: Sequence[RankedPlan]) -> Summary:
+    frame, parts = _compact(plans)
+    shared = [("all", frame)] if frame else []
+    own = [(str(rank), part) for rank, part in enumerate(parts, 1)]
+    return Summary([*shared, *own, ("", "")], "dim" if frame else "")
+
+
+def _compact(plans: Sequence[RankedPlan]) -> tuple[str, list[str]]:
     """Return what all plans share at their beginnings and ends, and of each what lies between, `…` for the other.
 
     The first is empty where they share nothing.
     """
-    sequences = [[str(step.step) for step in plan.steps] for plan in plans]
+    sequences = [[str(priced.step) for priced in plan.steps] for plan in plans]
     begin = _shared(sequences) if len(sequences) > 1 else 0
     rest = [sequence[begin:][::-1] for sequence in sequences]
     end = _shared(rest) if len(sequences) > 1 else 0
@@ -101,21 +129,28 @@ def _shared(sequences: Sequence[Sequence[str]]) -> int:
     return sum(1 for _ in takewhile(lambda column: len(set(column)) == 1, zip(*sequences, strict=False)))
 
 
-def _head(result: ShownPlans) -> str:
-    agent = result.attitude if result.alpha is None else f"{result.attitude}, alpha {result.alpha:g}"
-    count = "all plans" if result.is_all else f"{result.proven} proven"
-    return f"status: {result.status} (risk-{agent}), {counted(len(result.plans), 'plan')}, {count}"
-
-
-def _table(result: ShownPlans) -> Table:
-    frame, parts = compact_actions(result.plans)
-    rows = list(_rows(result.plans, parts))
-    if frame:
-        rows.insert(0, ("", "", "", "", "", frame))
-    return Table(COLUMNS, rows)
-
-
-def _rows(plans: Sequence[ShownPlan], parts: Sequence[str]) -> Iterator[tuple[str, ...]]:
-    for plan, part in zip(plans, parts, strict=True):
-        costs = (f"{plan.risk_cost:.10g}", f"{plan.expected_cost:.10g}", plan.expected_utility)
-        yield (f"{plan.rank}", *costs, f"{plan.length}", part)
+def _proven_rows(result: TopPlans) -> Labelled:
+    others = f"has a certainty equivalent below {number(result.lower_bound)}"
+    up_to_order = "" if result.distinct == "sequence" else ", but for these with their actions in another order"
+    if not result.plans:
+        rows = [("status", ENDINGS[result.status])]
+        if result.status is Status.UNSOLVABLE or result.lower_bound is None:
+            return rows
+        return [*rows, ("proven", f"no plan {others}")]
+    if result.is_all:
+        return [("status", f"optimal: this problem has no other plans{up_to_order}")]
+    if result.status is Status.OPTIMAL:
+        rows = [("status", f"optimal: no other plan has a higher expected utility{up_to_order}")]
+        gap = result.plans[-1].risk_cost - (result.lower_bound or 0)
+        return [*rows, ("proven", f"to within {gap:.1g} of the certainty equivalents (rounding)")] if gap > 0 else rows
+    if result.stopped is None:
+        rows = [("status", "solved: there may be better plans, within the error of the certainty equivalents")]
+    else:
+        wanted = "a plan was" if result.k == 1 else f"{result.k} plans were"
+        rows = [("status", f"{STOPS[result.stopped]} before {wanted} found and proven to be the best")]
+    if result.proven:
+        which = "these are" if result.proven == len(result) else f"the first {result.proven} are"
+        rows.append(("proven", "the first is the best" if result.proven == 1 else f"{which} the best"))
+    if result.lower_bound is not None:
+        rows.append(("proven", f"no other plan {others}"))
+    return rows

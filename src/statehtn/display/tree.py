@@ -3,28 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
-
-@dataclass(frozen=True, slots=True)
-class TreeRow:
-    """A node of a tree whose nodes are listed parents first, and children in order, each with all that is below it.
-
-    Args:
-        depth: 0 for a root; at most one more than that of the row before.
-        label: what it is, in one line.
-        note: more about it; may be empty.
-        is_leaf: drawn as the end of a branch; such a row has nothing below it, though others may have nothing, either.
-    """
-
-    depth: int
-    label: str
-    note: str = ""
-    is_leaf: bool = False
+from statehtn.model.decomposition_tree import TreeRow
 
 
 def tree_text(rows: Sequence[TreeRow]) -> str:
-    """Return a tree in box-drawing characters, a line for each row."""
+    """Return a tree in box-drawing characters, a line for each row.
+
+    rich takes a hundred times as long for the same lines: minutes for the decomposition of a long plan.
+    """
     lasts = list(_are_last(rows))
     lines = []
     bars: list[str] = []  # what stands to the left of each depth below the roots

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from statehtn.display.axes import new_or_given
-from statehtn.display.tree import TreeRow
 from statehtn.errors import UsageError
+from statehtn.model.decomposition_tree import TreeRow
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

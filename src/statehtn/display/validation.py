@@ -1,35 +1,58 @@
-"""Verdicts on plans as HTML."""
+"""Verdicts on plans in a terminal and as HTML."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
-from typing import Protocol
 
 from statehtn.display.table import Column, Table
+from statehtn.display.terminal import Summary, rendered
+from statehtn.display.words import FAILURE, SUCCESS, Labelled, number
+from statehtn.validation import Validation
 
-COLUMNS = (Column("", is_number=True), Column("cost"), Column("expected", is_number=True))
+COSTS = (Column("cost"), Column("expected", is_number=True))
 MOST_REASONS = 20
 
 
-class ShownLaw(Protocol):
-    """What is shown of the law of a cost, besides its text."""
-
-    @property
-    def mean(self) -> float:
-        """The expected cost."""
-        ...
-
-
-def validation_html(valid: bool, reasons: Sequence[str], costs: Sequence[ShownLaw]) -> str:
+def validation_html(validation: Validation) -> str:
     """Return the verdict, the reasons, and a table of the costs of the steps that can be executed."""
-    parts = [f"<b>{'valid' if valid else 'invalid'}</b>"]
+    parts = [f"<b>{'valid' if validation.valid else 'invalid'}</b>"]
+    reasons = validation.reasons
     if reasons:
         shown = [*map(escape, reasons[:MOST_REASONS])]
         if len(reasons) > MOST_REASONS:
             shown.append(f"and {len(reasons) - MOST_REASONS} more")
         parts.append(f"<ul>{''.join(f'<li>{reason}</li>' for reason in shown)}</ul>")
-    rows = [(str(number), str(law), f"{law.mean:.10g}") for number, law in enumerate(costs, 1)]
+    rows = [(str(index), *cost) for index, cost in enumerate(_costs(validation), 1)]
     if rows:
-        parts.append(Table(COLUMNS, rows).to_html())
+        parts.append(Table((Column("", is_number=True), *COSTS), rows).to_html())
     return f"<div>{''.join(parts)}</div>"
+
+
+def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
+    """Return the verdict on a plan, action by action; `costs` has a law for each step that can be executed."""
+    states = [("executed", *cost) for cost in _costs(validation)]
+    if validation.stopped is None:
+        states.append(("fails", "", ""))
+    states += [("not reached", "", "")] * (len(steps) - len(states))
+    shown = [(str(index), str(step), *state) for index, (step, state) in enumerate(zip(steps, states, strict=False), 1)]
+    table = Table((Column("", is_number=True), Column("action"), Column(""), *COSTS), shown)
+    summary = Summary(_verdict(validation), SUCCESS if validation.valid else FAILURE)
+    return rendered([table, summary] if shown else [summary])
+
+
+def _verdict(validation: Validation) -> Labelled:
+    verdict = "valid" if validation.valid else "invalid" if validation.stopped is None else "not decided"
+    rows = [("verdict", verdict)]
+    if validation.plan is not None:
+        tree = str(validation.plan.decomposition).split("\n")
+        rows = [("verdict", "valid: these actions have a decomposition"), ("found", tree[0])]
+        rows += [("", line) for line in tree[1:]]
+    rows += [("because", reason) for reason in validation.reasons]
+    return [*rows, ("expected cost", number(validation.expected_cost))] if validation.valid else rows
+
+
+def _costs(validation: Validation) -> list[tuple[str, str]]:
+    laws = {id(law): law for law in validation.costs}  # long plans repeat them
+    texts = {key: (str(law), number(law.mean)) for key, law in laws.items()}
+    return [texts[id(law)] for law in validation.costs]

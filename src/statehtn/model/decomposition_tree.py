@@ -6,11 +6,27 @@ from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING
 
-from statehtn.display.tree import TreeRow, tree_text
 from statehtn.model.plan import Decomposition, Plan
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, slots=True)
+class TreeRow:
+    """A node of a tree whose nodes are listed parents first, and children in order, each with all that is below it.
+
+    Args:
+        depth: 0 for a root; at most one more than that of the row before.
+        label: what it is, in one line.
+        note: more about it; may be empty.
+        is_leaf: drawn as the end of a branch; such a row has nothing below it, though others may have nothing, either.
+    """
+
+    depth: int
+    label: str
+    note: str = ""
+    is_leaf: bool = False
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -42,6 +58,8 @@ class DecompositionTree:
         return f"<decomposition tree of {self.plan!r}>"
 
     def __str__(self) -> str:
+        from statehtn.display.tree import tree_text
+
         return tree_text(self.rows)
 
     def _repr_html_(self) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from statehtn.collector import without_collector
-from statehtn.counted import counted
+from statehtn.counted import brief, counted
 from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_plan, expect_problem, expect_utility
@@ -66,8 +66,6 @@ class Validation:
         }
 
     def __repr__(self) -> str:
-        from statehtn.display.law import brief
-
         if self.valid:
             return f"<validation: valid, {counted(len(self.costs), 'step')}, expected cost {self.expected_cost:.10g}>"
         more = f" (and {counted(len(self.reasons) - 1, 'more reason')})" if len(self.reasons) > 1 else ""
@@ -76,7 +74,7 @@ class Validation:
     def _repr_html_(self) -> str:
         from statehtn.display.validation import validation_html
 
-        return validation_html(self.valid, self.reasons, self.costs)
+        return validation_html(self)
 
     @property
     def expected_cost(self) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
+from statehtn.counted import brief
 from statehtn.errors import UsageError
 from statehtn.expected import number
 
@@ -96,16 +97,12 @@ class CostLaw(ABC):
         """Draw so many independent costs with a generator of numpy."""
 
     def __repr__(self) -> str:
-        from statehtn.display.law import brief
-
         return f"<{type(self).__name__}: {brief(str(self))}; mean {self.mean:.6g}>"
 
     def _repr_html_(self) -> str:
-        from statehtn.display.law import brief, law_html
+        from statehtn.display.law import law_html
 
-        names = ("mean", "standard deviation", "least", "most")
-        values = (self.mean, self.standard_deviation, self.least, self.most)
-        return law_html(brief(str(self)), list(zip(names, values, strict=True)), getattr(self, "outcomes", ()))
+        return law_html(self)
 
     def plot(self, ax: Axes | None = None, *, label: str | None = None, color: str | None = None) -> Axes:
         """Draw the probability of keeping each budget, by matplotlib (`pip install 'statehtn[plots]'`).
@@ -122,8 +119,7 @@ class CostLaw(ABC):
         """
         from statehtn.display.law_plot import plot_law
 
-        worst = self.quantile(0.95), self.cvar(0.95)
-        return plot_law(*self.curve(), self.mean, worst, ax, str(self) if label is None else str(label), color)
+        return plot_law(self, ax, str(self) if label is None else str(label), color)
 
     def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
         """Return ascending costs, and the probability of each or less, for a drawing in about so many steps.
