@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 
 import networkx as nx
@@ -30,3 +31,10 @@ def test_what_is_drawn_is_read_back() -> None:
     picture = draw(graph)
     assert nx.utils.graphs_equal(drawn(picture), graph)
     assert picture.count("prefers-color-scheme") == 1
+
+
+def test_the_page_says_what_each_room_is() -> None:
+    page = (PICTURE.parents[1] / "architecture.md").read_text(encoding="utf-8")
+    rows = [line.split("|")[1] for line in page.splitlines() if line.startswith("| `")]
+    told = {f"`{room.partition('/')[2]}`" for room in uses()}
+    assert {room for row in rows for room in re.findall("`[^`]*`", row)} == told

@@ -66,7 +66,8 @@ class Exponential:
         """Return the certainty-equivalent cost.
 
         It is `ln E[e^(alpha C)] / alpha` for an averse agent and `-ln E[e^(-alpha C)] / alpha` for a seeking one: at
-        least, or at most, the expected cost, to which it tends as alpha tends to 0.
+        least, or at most, the expected cost, to which it tends as alpha tends to 0. The paper's price of an action
+        (equation 10) is this one's negative, in another unit.
 
         Raises:
             InputError: it is infinite, or cannot be computed; never for a list of outcomes.

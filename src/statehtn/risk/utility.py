@@ -78,7 +78,9 @@ class Utility(Protocol):
         ...
 
     def risk_cost(self, law: CostLaw) -> float:
-        """Return the certainty-equivalent cost; it lies between the least and the largest cost that is possible.
+        """Return the certainty-equivalent cost, the price of a cost to the agent (`EU(o)` of the paper's equation 10).
+
+        It lies between the least and the largest cost that is possible.
 
         Raises:
             InputError: it is infinite.
