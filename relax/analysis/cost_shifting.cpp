@@ -26,7 +26,7 @@ public:
         alternatives_.clear();
         part_of_.clear();
         for (std::uint32_t at = 0; at < parts.size(); ++at) {
-            for (const std::uint32_t alternative : problem_.cost_alternatives(parts[at])) {
+            for (const AlternativeId alternative : problem_.cost_alternatives[parts[at]]) {
                 alternatives_.push_back(alternative);
                 part_of_.push_back(at);
             }
@@ -63,7 +63,7 @@ private:
     }
 
     const GroundProblem& problem_;
-    std::vector<std::uint32_t> alternatives_;
+    std::vector<AlternativeId> alternatives_;
     std::vector<std::uint32_t> part_of_;  // by index of `alternatives_`
     std::unordered_map<FactId, bool> is_true_;
     std::uint32_t steps_ = 0;
@@ -73,7 +73,7 @@ private:
 // Facts on which a cost part depends, with repetitions.
 void append_facts(const GroundProblem& problem, CostPartId part, std::vector<FactId>& positive,
                   std::vector<FactId>& negative) {
-    for (const std::uint32_t alternative : problem.cost_alternatives(part)) {
+    for (const AlternativeId alternative : problem.cost_alternatives[part]) {
         std::ranges::copy(problem.cost_conditions[alternative], std::back_inserter(positive));
         std::ranges::copy(problem.cost_negative_conditions[alternative], std::back_inserter(negative));
     }
@@ -85,7 +85,7 @@ std::vector<std::vector<CostPartId>> unrelated_groups(const GroundProblem& probl
     std::vector<std::vector<CostPartId>> groups;
     std::unordered_map<FactId, std::size_t> group_of;
     std::vector<FactId> facts;
-    for (const CostPartId part : problem.cost_parts(action)) {
+    for (const CostPartId part : problem.cost_parts[action]) {
         std::vector<CostPartId> group{part};
         facts.clear();
         append_facts(problem, part, facts, facts);
@@ -157,9 +157,9 @@ void shift_within(const GroundProblem& problem, ActionId action, std::span<const
 }  // namespace
 
 Prices shift_costs(const GroundProblem& problem, Prices prices, Limits& limits) {
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         limits.stop_if_reached();
-        if (problem.cost_parts(action).empty()) {
+        if (problem.cost_parts[action].empty()) {
             continue;
         }
         for (const std::vector<CostPartId>& group : unrelated_groups(problem, action)) {

@@ -12,10 +12,6 @@ namespace {
 constexpr std::size_t kMostWords = 2'000'000;    // of memory
 constexpr std::uint64_t kMostWork = 40'000'000;  // in words looked at
 
-bool is_unconditional(const GroundProblem& problem, EffectId effect) {
-    return problem.effect_conditions[effect].empty() && problem.effect_negative_conditions[effect].empty();
-}
-
 }  // namespace
 
 std::shared_ptr<const Mutexes> Mutexes::of(const GroundProblem& problem, Limits& limits) {
@@ -24,13 +20,13 @@ std::shared_ptr<const Mutexes> Mutexes::of(const GroundProblem& problem, Limits&
 
 Mutexes::Mutexes(const GroundProblem& problem, Limits& limits) {
     number_negated(problem);
-    words_ = (fact_of_.size() + 63) / 64;
+    words_ = words_for(fact_of_.size());
     if (fact_of_.size() * words_ > kMostWords) {
         return;
     }
     start(problem);
     Rows<Index> needed;
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         limits.stop_if_reached();
         for (const FactId fact : problem.preconditions[action]) {
             needed.push(fact);
@@ -44,7 +40,7 @@ Mutexes::Mutexes(const GroundProblem& problem, Limits& limits) {
     std::uint64_t work = 0;
     for (bool has_changed = true; has_changed;) {
         has_changed = false;
-        for (ActionId action = 0; action < problem.action_count(); ++action) {
+        for (const ActionId action : problem.actions()) {
             limits.stop_if_reached();
             if (!has_news(needed[action], executed[action])) {
                 continue;
@@ -68,12 +64,12 @@ bool Mutexes::are_mutex(Literal one, Literal other) const {
     if (together_.empty() || one == other || index(one) == kUnread || index(other) == kUnread) {
         return false;
     }
-    return !holds(row(index(one)), index(other));
+    return !has_bit(row(index(one)), index(other));
 }
 
 void Mutexes::number_negated(const GroundProblem& problem) {
     negated_.assign(problem.fact_count(), kUnread);
-    for (FactId fact = 0; fact < problem.fact_count(); ++fact) {
+    for (const FactId fact : problem.facts()) {
         fact_of_.push_back(fact);
     }
     const auto read = [this](std::span<const FactId> facts) {
@@ -84,9 +80,9 @@ void Mutexes::number_negated(const GroundProblem& problem) {
             }
         }
     };
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         read(problem.negative_preconditions[action]);
-        for (EffectId effect = problem.effect_begin[action]; effect < problem.effect_begin[action + 1]; ++effect) {
+        for (const EffectId effect : problem.effects[action]) {
             read(problem.effect_negative_conditions[effect]);
         }
     }
@@ -102,12 +98,12 @@ void Mutexes::start(const GroundProblem& problem) {
     }
     Row state(words_, 0);
     for (const FactId fact : problem.initial_state) {
-        set_fact(state, fact);
+        set_bit(state, fact);
     }
     for (Index index = 0; index < fact_of_.size(); ++index) {
         const bool is_negated = index >= negated_.size();
-        if (holds(state, fact_of_[index]) != is_negated) {
-            set_fact(after_, index);
+        if (has_bit(state, fact_of_[index]) != is_negated) {
+            set_bit(after_, index);
             made_.push_back(index);
         }
     }
@@ -133,30 +129,28 @@ bool Mutexes::execute(const GroundProblem& problem, ActionId action, std::span<c
             beside_[word] &= row(index)[word];
         }
     }
-    if (!std::ranges::all_of(needed, [this](Index index) { return holds(beside_, index); })) {
+    if (!std::ranges::all_of(needed, [this](Index index) { return has_bit(beside_, index); })) {
         return false;
     }
     after_ = beside_;
-    const EffectId begin = problem.effect_begin[action];
-    const EffectId end = problem.effect_begin[action + 1];
-    for (EffectId effect = begin; effect < end; ++effect) {
-        if (is_unconditional(problem, effect)) {
+    for (const EffectId effect : problem.effects[action]) {
+        if (problem.is_unconditional(effect)) {
             for (const FactId fact : problem.effect_adds[effect]) {
-                set_fact(certain_, fact);
+                set_bit(certain_, fact);
             }
         }
     }
     // What is certain first: it takes away what held before.
     for (const bool is_certain : {true, false}) {
-        for (EffectId effect = begin; effect < end; ++effect) {
-            if (is_unconditional(problem, effect) == is_certain) {
+        for (const EffectId effect : problem.effects[action]) {
+            if (problem.is_unconditional(effect) == is_certain) {
                 affect(problem, effect);
             }
         }
     }
-    for (EffectId effect = begin; effect < end; ++effect) {
+    for (const EffectId effect : problem.effects[action]) {
         for (const FactId fact : problem.effect_adds[effect]) {
-            clear_fact(certain_, fact);
+            clear_bit(certain_, fact);
         }
     }
     for (const Index index : made_) {
@@ -168,8 +162,8 @@ bool Mutexes::execute(const GroundProblem& problem, ActionId action, std::span<c
 // Change what may hold after the action by an effect: one without a condition makes its literals true for certain and
 // their negations false, one with a condition that may hold does so or does not. Adding wins over deleting.
 void Mutexes::affect(const GroundProblem& problem, EffectId effect) {
-    const bool is_certain = is_unconditional(problem, effect);
-    const auto is_out = [&](Index index) { return !holds(beside_, index); };
+    const bool is_certain = problem.is_unconditional(effect);
+    const auto is_out = [&](Index index) { return !has_bit(beside_, index); };
     if (std::ranges::any_of(problem.effect_conditions[effect], is_out) ||
         std::ranges::any_of(problem.effect_negative_conditions[effect],
                             [&](FactId fact) { return is_out(negated_[fact]); })) {
@@ -177,15 +171,15 @@ void Mutexes::affect(const GroundProblem& problem, EffectId effect) {
     }
     const auto make = [&](Index made, Index lost) {
         if (is_certain && lost != kUnread) {
-            clear_fact(after_, lost);
+            clear_bit(after_, lost);
         }
         if (made != kUnread) {
-            set_fact(after_, made);
+            set_bit(after_, made);
             made_.push_back(made);
         }
     };
     for (const FactId fact : problem.effect_deletes[effect]) {
-        if (!holds(certain_, fact)) {
+        if (!has_bit(certain_, fact)) {
             make(negated_[fact], fact);
         }
     }
@@ -196,8 +190,8 @@ void Mutexes::affect(const GroundProblem& problem, EffectId effect) {
 
 // The literal may hold with all that may hold after the action, but for its own negation.
 void Mutexes::put_together(Index index) {
-    if (!holds(reached_, index)) {
-        set_fact(reached_, index);
+    if (!has_bit(reached_, index)) {
+        set_bit(reached_, index);
         reached_tick_ = tick_;
     }
     const FactId fact = fact_of_[index];
@@ -213,7 +207,7 @@ void Mutexes::put_together(Index index) {
         }
         for (; fresh != 0; fresh &= fresh - 1) {
             const std::size_t other = word * 64 + static_cast<std::size_t>(std::countr_zero(fresh));
-            set_fact(std::span(together_).subspan(other * words_, words_), index);
+            set_bit(std::span(together_).subspan(other * words_, words_), index);
             changed_[other] = tick_;
         }
     }

@@ -15,29 +15,28 @@ const TaskProfile& TaskProfiles::operator[](TaskId task) {
 TaskProfile TaskProfiles::of_action(ActionId action) const {
     TaskProfile result = TaskProfile::empty(problem_);
     for (const FactId fact : problem_.preconditions[action]) {
-        result.preconditions.push_back(2 * fact);
+        result.preconditions.push_back(literal_of(fact));
     }
     for (const FactId fact : problem_.negative_preconditions[action]) {
-        result.preconditions.push_back(2 * fact + 1);
+        result.preconditions.push_back(literal_of(fact, true));
     }
     result.read_list = result.preconditions;
     const auto read_either_way = [&result](std::span<const FactId> facts) {
         for (const FactId fact : facts) {
-            result.read_list.push_back(2 * fact);
-            result.read_list.push_back(2 * fact + 1);
+            result.read_list.push_back(literal_of(fact));
+            result.read_list.push_back(literal_of(fact, true));
         }
     };
-    for (const CostPartId part : problem_.cost_parts(action)) {
-        for (const std::uint32_t alternative : problem_.cost_alternatives(part)) {
+    for (const CostPartId part : problem_.cost_parts[action]) {
+        for (const AlternativeId alternative : problem_.cost_alternatives[part]) {
             read_either_way(problem_.cost_conditions[alternative]);
             read_either_way(problem_.cost_negative_conditions[alternative]);
         }
     }
-    for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {
+    for (const EffectId effect : problem_.effects[action]) {
         read_either_way(problem_.effect_conditions[effect]);
         read_either_way(problem_.effect_negative_conditions[effect]);
-        const bool is_certain =
-            problem_.effect_conditions[effect].empty() && problem_.effect_negative_conditions[effect].empty();
+        const bool is_certain = problem_.is_unconditional(effect);
         const auto make = [&](Literal literal) {
             result.made_list.push_back(literal);
             if (is_certain) {
@@ -45,10 +44,10 @@ TaskProfile TaskProfiles::of_action(ActionId action) const {
             }
         };
         for (const FactId fact : problem_.effect_adds[effect]) {
-            make(2 * fact);
+            make(literal_of(fact));
         }
         for (const FactId fact : problem_.effect_deletes[effect]) {
-            make(2 * fact + 1);
+            make(literal_of(fact, true));
         }
     }
     for (const Literal literal : result.read_list) {
@@ -56,7 +55,7 @@ TaskProfile TaskProfiles::of_action(ActionId action) const {
     }
     for (const Literal literal : result.made_list) {
         result.makes.insert(literal);
-        if (literal % 2 == 0) {
+        if (!is_negated(literal)) {
             result.undoes.erase(literal);  // adding wins over deleting
         }
     }

@@ -15,7 +15,7 @@ namespace {
 class Occurrences {
 public:
     Occurrences(const GroundProblem& problem, Limits& limits) : ends_(problem.task_count() + 1, 0) {
-        for (MethodId method = 0; method < problem.method_count(); ++method) {
+        for (const MethodId method : problem.methods()) {
             limits.stop_if_reached();
             for (const TaskId subtask : problem.method_subtasks[method]) {
                 ++ends_[subtask + 1];
@@ -24,7 +24,7 @@ public:
         std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
         methods_.resize(ends_.back());
         std::vector<std::size_t> next(ends_.begin(), ends_.end() - 1);
-        for (MethodId method = 0; method < problem.method_count(); ++method) {
+        for (const MethodId method : problem.methods()) {
             limits.stop_if_reached();
             for (const TaskId subtask : problem.method_subtasks[method]) {
                 methods_[next[subtask]++] = method;
@@ -56,14 +56,14 @@ std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> 
             queue.emplace(value, task);
         }
     };
-    for (MethodId method = 0; method < problem.method_count(); ++method) {
+    for (const MethodId method : problem.methods()) {
         const auto subtasks = problem.method_subtasks[method];
         missing[method] = static_cast<std::uint32_t>(subtasks.size());
         if (subtasks.empty()) {
             offer(problem.method_task[method], 0);
         }
     }
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         offer(action, costs[action]);
     }
     while (!queue.empty()) {

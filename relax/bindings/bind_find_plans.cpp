@@ -15,6 +15,7 @@
 
 #include "bindings.hpp"
 #include "checked_prices.hpp"
+#include "id_caster.hpp"
 #include "python_limits.hpp"
 #include "relax/analysis/cost_shifting.hpp"
 #include "relax/analysis/tdg_bound.hpp"
@@ -49,7 +50,7 @@ public:
             if (fact >= problem_.fact_count()) {
                 throw std::out_of_range("no such fact: " + std::to_string(fact));
             }
-            relax::set_fact(state, fact);
+            relax::set_bit(state, fact);
         }
         relax::Cost bound = 0;
         for (const relax::TaskId task : tasks) {

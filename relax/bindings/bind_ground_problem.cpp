@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "id_caster.hpp"
 #include "python_limits.hpp"
 #include "relax/analysis/mutexes.hpp"
 #include "relax/grounding/grounder.hpp"
@@ -34,6 +35,16 @@ auto row(const GroundProblem& problem, std::size_t index) {
     }
     const auto values = rows[index];
     return std::vector(values.begin(), values.end());
+}
+
+// Expose what an owner has of a table of shares as where it begins and ends.
+template <auto Table>
+std::pair<std::uint32_t, std::uint32_t> share(const GroundProblem& problem, std::size_t owner) {
+    const auto& shares = problem.*Table;
+    if (owner >= shares.size()) {
+        throw std::out_of_range("index out of range");
+    }
+    return shares.bounds(owner);
 }
 
 using GroundingResult =
@@ -81,30 +92,18 @@ void bind_ground_problem(nb::module_& module) {
         .def_ro("solvable", &GroundProblem::solvable)
         .def("method_task",
              [](const GroundProblem& problem, std::size_t method) { return problem.method_task.at(method); })
-        .def("method_parts",
-             [](const GroundProblem& problem, std::size_t method) {
-                 return std::pair(problem.method_part_begin.at(method), problem.method_part_begin.at(method + 1));
-             })
+        .def("method_parts", &share<&GroundProblem::method_parts>)
         .def("part_schema", [](const GroundProblem& problem, std::size_t part) { return problem.part_schema.at(part); })
         .def("part_origin", [](const GroundProblem& problem, std::size_t part) { return problem.part_origin.at(part); })
-        .def("effects",
-             [](const GroundProblem& problem, std::size_t action) {
-                 return std::pair(problem.effect_begin.at(action), problem.effect_begin.at(action + 1));
-             })
+        .def("effects", &share<&GroundProblem::effects>)
         .def("fact_arguments", &row<&GroundProblem::fact_arguments>)
         .def("preconditions", &row<&GroundProblem::preconditions>)
         .def("negative_preconditions", &row<&GroundProblem::negative_preconditions>)
         .def("action_arguments", &row<&GroundProblem::action_arguments>)
         .def("action_cost_blocks", &row<&GroundProblem::action_cost_blocks>)
-        .def("cost_parts",
-             [](const GroundProblem& problem, std::size_t action) {
-                 return std::pair(problem.cost_part_begin.at(action), problem.cost_part_begin.at(action + 1));
-             })
+        .def("cost_parts", &share<&GroundProblem::cost_parts>)
         .def("cost_part_blocks", &row<&GroundProblem::cost_part_blocks>)
-        .def("cost_alternatives",
-             [](const GroundProblem& problem, std::size_t part) {
-                 return std::pair(problem.cost_alternative_begin.at(part), problem.cost_alternative_begin.at(part + 1));
-             })
+        .def("cost_alternatives", &share<&GroundProblem::cost_alternatives>)
         .def("cost_conditions", &row<&GroundProblem::cost_conditions>)
         .def("cost_negative_conditions", &row<&GroundProblem::cost_negative_conditions>)
         .def("effect_conditions", &row<&GroundProblem::effect_conditions>)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "id_caster.hpp"
 #include "relax/problem/lifted_problem.hpp"
 
 namespace nb = nanobind;

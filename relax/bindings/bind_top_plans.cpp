@@ -10,6 +10,7 @@
 
 #include "bindings.hpp"
 #include "checked_prices.hpp"
+#include "id_caster.hpp"
 #include "python_limits.hpp"
 #include "relax/search/top_plans.hpp"
 

@@ -130,9 +130,6 @@ private:
     // An action node with several cases becomes a choice, numbered after the
     // compound tasks.
     void write_actions() {
-        problem_.effect_begin.push_back(0);
-        problem_.cost_part_begin.push_back(0);
-        problem_.cost_alternative_begin.push_back(0);
         for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
             for_each_living_node(action, [&](NodeId node) {
                 if (!is_written_[node]) {
@@ -175,7 +172,6 @@ private:
 
     void write_methods() {
         const TaskGraph& graph = remains_.graph;
-        problem_.method_part_begin.push_back(0);
         for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
             if (graph.is_method_alive[method] && composition_->is_kept(graph.method_task[method])) {
                 remains_.limits.stop_if_reached();
@@ -191,7 +187,7 @@ private:
             problem_.part_arguments.add_row(remains_.graph.method_arguments[part.method]);
             problem_.part_origin.emplace_back(part.parent, part.position);
         }
-        problem_.method_part_begin.push_back(static_cast<std::uint32_t>(problem_.part_schema.size()));
+        problem_.method_parts.share_out(problem_.part_schema.size());
         for (const ComposedNetwork::Subtask& subtask : network.subtasks) {
             problem_.method_subtasks.push(*task_of_node_[subtask.node]);
             problem_.method_positions.push({subtask.part, subtask.position});
@@ -205,7 +201,7 @@ private:
         for (const Choice& choice : choices_) {
             for (std::uint32_t one = 0; one < choice.case_count; ++one) {
                 problem_.method_task.push_back(*task_of_node_[choice.node]);
-                problem_.method_part_begin.push_back(problem_.method_part_begin.back());
+                problem_.method_parts.share_out(problem_.part_schema.size());
                 problem_.method_subtasks.push(choice.first_case + one);
                 problem_.method_subtasks.finish_row();
                 problem_.method_positions.push({0, 0});
@@ -217,7 +213,7 @@ private:
 
     void write_methods_by_task() {
         std::vector<std::vector<MethodId>> methods_of(problem_.compound_count());
-        for (MethodId method = 0; method < problem_.method_count(); ++method) {
+        for (const MethodId method : problem_.methods()) {
             methods_of[problem_.method_task[method] - problem_.action_count()].push_back(method);
         }
         for (const std::vector<MethodId>& methods : methods_of) {

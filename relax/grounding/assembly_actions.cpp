@@ -45,7 +45,7 @@ void tidy(Effects& effects, const Conjunction& precondition) {
     }
     std::ranges::sort(made);
     const auto changes_nothing = [&](Literal change, bool is_conditional) {
-        const Literal added = 2 * fact_of(change);
+        const Literal added = literal_of(fact_of(change));
         if (is_negated(change) && (contains(precondition, change) || std::ranges::count(unconditional, added) > 0)) {
             return true;
         }
@@ -70,8 +70,7 @@ void tidy(Effects& effects, const Conjunction& precondition) {
 Effects effects_of(const Remains& remains, CaseId number, const Conjunction& precondition) {
     const NodeId owner = remains.cases.owner[number];
     Effects effects;
-    for (std::uint32_t effect = remains.cases.effect_begin[owner]; effect < remains.cases.effect_begin[owner + 1];
-         ++effect) {
+    for (const EffectId effect : remains.cases.effects[owner]) {
         const auto condition = condition_within(remains, remains.cases.effect_condition[effect], precondition);
         if (remains.cases.is_effect_alive[effect] && condition) {
             Conjunction& changes = effects[*condition];
@@ -86,10 +85,9 @@ Costs costs_of(const Remains& remains, CaseId number, const Conjunction& precond
     const Cases& cases = remains.cases;
     const NodeId owner = cases.owner[number];
     Costs costs;
-    for (std::uint32_t part = cases.cost_begin[owner]; part < cases.cost_begin[owner + 1]; ++part) {
+    for (const CostPartId part : cases.cost_parts[owner]) {
         Disjunction condition;
-        for (std::uint32_t alternative = cases.cost_alternative_begin[part];
-             alternative < cases.cost_alternative_begin[part + 1]; ++alternative) {
+        for (const AlternativeId alternative : cases.cost_alternatives[part]) {
             if (auto rest = condition_within(remains, cases.cost_condition[alternative], precondition)) {
                 condition.push_back(*std::move(rest));
             }
@@ -107,7 +105,7 @@ Costs costs_of(const Remains& remains, CaseId number, const Conjunction& precond
 std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action) {
     constexpr std::size_t kMostComparedCases = 300;
     std::vector<RemainingCase> candidates;
-    for (CaseId number = remains.cases.begin[action]; number < remains.cases.begin[action + 1]; ++number) {
+    for (const CaseId number : remains.cases.cases[action]) {
         if (remains.cases.is_alive[number]) {
             candidates.push_back({number, without_constants(remains, remains.cases.condition[number]), {}, {}});
         }
@@ -188,7 +186,7 @@ void write_action(const RemainingCase& one, const std::vector<std::optional<Fact
             write(changes, problem.effect_adds, problem.effect_deletes);
         }
     }
-    problem.effect_begin.push_back(static_cast<EffectId>(problem.effect_adds.size()));
+    problem.effects.share_out(problem.effect_adds.size());
     for (const auto& [condition, blocks] : one.costs) {
         if (is_true(condition)) {
             std::ranges::for_each(blocks, [&](std::uint32_t entry) { problem.action_cost_blocks.push(entry); });
@@ -198,10 +196,10 @@ void write_action(const RemainingCase& one, const std::vector<std::optional<Fact
         for (const Conjunction& alternative : condition) {
             write(alternative, problem.cost_conditions, problem.cost_negative_conditions);
         }
-        problem.cost_alternative_begin.push_back(static_cast<std::uint32_t>(problem.cost_conditions.size()));
+        problem.cost_alternatives.share_out(problem.cost_conditions.size());
     }
     problem.action_cost_blocks.finish_row();
-    problem.cost_part_begin.push_back(static_cast<CostPartId>(problem.cost_part_count()));
+    problem.cost_parts.share_out(problem.cost_part_count());
 }
 
 }  // namespace relax::grounding

@@ -48,7 +48,7 @@ void tidy(Effects& effects) {
     for (auto& [condition, changes] : effects) {
         const Conjunction before = changes;
         std::erase_if(changes, [&](Literal change) {
-            const Literal added = 2 * fact_of(change);
+            const Literal added = literal_of(fact_of(change));
             return (is_negated(change) && (contains(before, added) || contains(unconditional, added))) ||
                    (!condition.empty() && contains(unconditional, change));
         });
@@ -70,30 +70,28 @@ public:
     }
 
     Cases make() {
-        cases_.cost_alternative_begin.push_back(0);
         for (std::uint32_t action = 0; action < knowledge_.problem.actions.size(); ++action) {
             const NormalAction normal = normal_action(knowledge_, knowledge_.problem.actions[action]);
             const TupleId count = knowledge_.relations[knowledge_.task_relation(action)].size();
             for (TupleId instance = 0; instance < count; ++instance) {
                 limits_.stop_if_reached();
                 add_instance(action, normal, instance);
+                finish_instance();
             }
         }
-        begin_instance();
         cases_.is_alive.assign(cases_.owner.size(), true);
         cases_.is_effect_alive.assign(cases_.effect_owner.size(), true);
         return std::move(cases_);
     }
 
 private:
-    void begin_instance() {
-        cases_.begin.push_back(static_cast<CaseId>(cases_.owner.size()));
-        cases_.effect_begin.push_back(static_cast<std::uint32_t>(cases_.effect_owner.size()));
-        cases_.cost_begin.push_back(static_cast<std::uint32_t>(cases_.cost_blocks.size()));
+    void finish_instance() {
+        cases_.cases.share_out(cases_.owner.size());
+        cases_.effects.share_out(cases_.effect_owner.size());
+        cases_.cost_parts.share_out(cases_.cost_blocks.size());
     }
 
     void add_instance(std::uint32_t action, const NormalAction& normal, TupleId instance) {
-        begin_instance();
         const auto own = std::ranges::equal_range(order_, std::pair(action, instance), {}, [&](std::uint32_t at) {
             return std::pair(dependents_.keys[at].action, dependents_.keys[at].instance);
         });
@@ -102,7 +100,7 @@ private:
             return;
         }
         const std::span<const ObjectId> arguments = knowledge_.relations[knowledge_.task_relation(action)][instance];
-        Bindings bindings(knowledge_.problem.actions[action].slot_count, 0);
+        Bindings bindings(knowledge_.problem.actions[action].slot_count);
         std::ranges::copy(arguments, bindings.begin());
         try {
             add_cases(node, normal, bindings);
@@ -142,7 +140,7 @@ private:
             for (const Conjunction& alternative : condition) {
                 cases_.cost_condition.add_row(alternative);
             }
-            cases_.cost_alternative_begin.push_back(static_cast<std::uint32_t>(cases_.cost_condition.size()));
+            cases_.cost_alternatives.share_out(cases_.cost_condition.size());
         }
     }
 
@@ -160,7 +158,7 @@ private:
         Effects effects;
         const auto add = [&](const LiftedEffect& effect, const Disjunction& condition) {
             if (const auto fact = expander_.fact(effect.predicate, effect.arguments, bindings)) {
-                add_change(effects, condition, 2 * *fact + (effect.positive ? 0 : 1));
+                add_change(effects, condition, literal_of(*fact, !effect.positive));
             }
         };
         for (const LiftedEffect& effect : lifted.effects) {

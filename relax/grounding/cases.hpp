@@ -6,6 +6,7 @@
 
 #include "literals.hpp"
 #include "reachability.hpp"
+#include "relax/base/rows.hpp"
 #include "task_graph.hpp"
 
 namespace relax::grounding {
@@ -21,19 +22,19 @@ struct TooManyCases {
 // The living actions in cases: each has a conjunction as its precondition. The
 // cases of an instance share its effects and the parts of its cost.
 struct Cases {
-    std::vector<CaseId> begin;  // by action node; one more entry than there are action nodes
-    std::vector<NodeId> owner;  // by CaseId
+    Shares<NodeId, CaseId> cases;  // by action node, as are their effects and the parts of their costs
+    std::vector<NodeId> owner;     // by CaseId
     Rows<Literal> condition;
-    std::vector<std::uint32_t> effect_begin;  // by action node, likewise
+    Shares<NodeId, EffectId> effects;
     std::vector<NodeId> effect_owner;
     Rows<Literal> effect_condition;
     Rows<Literal> effect_changes;  // what becomes true; never a literal and its negation
     std::vector<bool> is_alive;    // by CaseId
     std::vector<bool> is_effect_alive;
-    std::vector<std::uint32_t> cost_begin;              // by action node, likewise: parts of its cost
-    Rows<std::uint32_t> cost_blocks;                    // by part: as GroundProblem::action_cost_blocks
-    std::vector<std::uint32_t> cost_alternative_begin;  // by part; one more entry
-    Rows<Literal> cost_condition;                       // by alternative: one of them makes the part due
+    Shares<NodeId, CostPartId> cost_parts;
+    Rows<std::uint32_t> cost_blocks;  // by part: as GroundProblem::action_cost_blocks
+    Shares<CostPartId, AlternativeId> cost_alternatives;
+    Rows<Literal> cost_condition;  // by alternative: one of them makes the part due
 };
 
 // Bring the living actions into normal form. Throws TooManyCases.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "relax/base/bits.hpp"
+
 namespace relax::grounding {
 
 namespace {
@@ -18,20 +20,18 @@ bool is_worth_copying(std::uint32_t subtasks, std::uint32_t users) {
 
 Ordering transitive_closure(const LiftedMethod& method, Limits& limits) {
     const std::size_t count = method.subtasks.size();
-    const std::size_t words = (count + 63) / 64;
+    const std::size_t words = words_for(count);
     std::vector<std::uint64_t> after(count * words, 0);  // a row of bits for every subtask
-    const auto is_after = [&](std::size_t earlier, std::size_t later) {
-        return (after[earlier * words + later / 64] >> (later % 64) & 1U) != 0;
-    };
+    const auto row = [&](std::size_t earlier) { return std::span(after).subspan(earlier * words, words); };
     for (const auto& [earlier, later] : method.ordering) {
-        after[earlier * words + later / 64] |= std::uint64_t{1} << (later % 64);
+        set_bit(row(earlier), later);
     }
     for (std::size_t between = 0; between < count; ++between) {
         for (std::size_t earlier = 0; earlier < count; ++earlier) {
-            if (is_after(earlier, between)) {
+            if (has_bit(row(earlier), between)) {
                 limits.stop_if_reached();
                 for (std::size_t word = 0; word < words; ++word) {
-                    after[earlier * words + word] |= after[between * words + word];
+                    row(earlier)[word] |= row(between)[word];
                 }
             }
         }
@@ -40,7 +40,7 @@ Ordering transitive_closure(const LiftedMethod& method, Limits& limits) {
     for (std::uint32_t earlier = 0; earlier < count; ++earlier) {
         limits.stop_if_reached();
         for (std::uint32_t later = 0; later < count; ++later) {
-            if (is_after(earlier, later)) {
+            if (has_bit(row(earlier), later)) {
                 closure.emplace_back(earlier, later);
             }
         }

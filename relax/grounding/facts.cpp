@@ -25,7 +25,7 @@ Knowledge::Knowledge(const LiftedProblem& lifted)
         relations.emplace_back(arity.value_or(0));  // an empty relation's arity does not matter
     }
     for (const std::vector<std::uint32_t>& fact : problem.initial_state) {
-        relations[fact[0]].add(std::span(fact).subspan(1));
+        relations[fact[0]].add(std::vector<ObjectId>(fact.begin() + 1, fact.end()));
     }
     for (const Relation& relation : relations) {
         initial_count.push_back(relation.size());

@@ -15,9 +15,6 @@ using namespace grounding;
 
 GroundProblem unsolvable() {
     GroundProblem problem;
-    problem.effect_begin.push_back(0);
-    problem.cost_part_begin.push_back(0);
-    problem.cost_alternative_begin.push_back(0);
     problem.solvable = false;
     return problem;
 }

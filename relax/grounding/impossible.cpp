@@ -32,27 +32,27 @@ private:
     // Bottom-up, by counting the subtasks of each method that are not yet known to be possible.
     void find_decomposable(const Mutexes& mutexes) {
         std::vector<std::uint32_t> users(problem_.task_count(), 0);
-        for (MethodId method = 0; method < problem_.method_count(); ++method) {
+        for (const MethodId method : problem_.methods()) {
             for (const TaskId subtask : problem_.method_subtasks[method]) {
                 ++users[subtask];
             }
         }
         const auto methods_with = Rows<MethodId>::filled(users, [&](auto put) {
-            for (MethodId method = 0; method < problem_.method_count(); ++method) {
+            for (const MethodId method : problem_.methods()) {
                 for (const TaskId subtask : problem_.method_subtasks[method]) {
                     put(subtask, method);
                 }
             }
         });
         std::vector<std::size_t> missing;
-        for (MethodId method = 0; method < problem_.method_count(); ++method) {
+        for (const MethodId method : problem_.methods()) {
             limits_.stop_if_reached();
             missing.push_back(problem_.method_subtasks[method].size());
             if (missing.back() == 0) {
                 wake(problem_.method_task[method]);
             }
         }
-        for (ActionId action = 0; action < problem_.action_count(); ++action) {
+        for (const ActionId action : problem_.actions()) {
             if (mutexes.is_possible(action)) {
                 wake(action);
             }
@@ -125,10 +125,7 @@ public:
 
 private:
     void copy_actions() {
-        copy_.effect_begin.push_back(0);
-        copy_.cost_part_begin.push_back(0);
-        copy_.cost_alternative_begin.push_back(0);
-        for (ActionId action = 0; action < old_.action_count(); ++action) {
+        for (const ActionId action : old_.actions()) {
             limits_.stop_if_reached();
             if (!living_.is_alive(action)) {
                 continue;
@@ -139,27 +136,27 @@ private:
             copy_.action_schema.push_back(old_.action_schema[action]);
             copy_.action_arguments.add_row(old_.action_arguments[action]);
             copy_.action_cost_blocks.add_row(old_.action_cost_blocks[action]);
-            for (EffectId effect = old_.effect_begin[action]; effect < old_.effect_begin[action + 1]; ++effect) {
+            for (const EffectId effect : old_.effects[action]) {
                 copy_.effect_conditions.add_row(old_.effect_conditions[effect]);
                 copy_.effect_negative_conditions.add_row(old_.effect_negative_conditions[effect]);
                 copy_.effect_adds.add_row(old_.effect_adds[effect]);
                 copy_.effect_deletes.add_row(old_.effect_deletes[effect]);
             }
-            copy_.effect_begin.push_back(static_cast<EffectId>(copy_.effect_adds.size()));
-            for (const CostPartId part : old_.cost_parts(action)) {
+            copy_.effects.share_out(copy_.effect_adds.size());
+            for (const CostPartId part : old_.cost_parts[action]) {
                 copy_.cost_part_blocks.add_row(old_.cost_part_blocks[part]);
-                for (const std::uint32_t alternative : old_.cost_alternatives(part)) {
+                for (const AlternativeId alternative : old_.cost_alternatives[part]) {
                     copy_.cost_conditions.add_row(old_.cost_conditions[alternative]);
                     copy_.cost_negative_conditions.add_row(old_.cost_negative_conditions[alternative]);
                 }
-                copy_.cost_alternative_begin.push_back(static_cast<std::uint32_t>(copy_.cost_conditions.size()));
+                copy_.cost_alternatives.share_out(copy_.cost_conditions.size());
             }
-            copy_.cost_part_begin.push_back(static_cast<CostPartId>(copy_.cost_part_count()));
+            copy_.cost_parts.share_out(copy_.cost_part_count());
         }
     }
 
     void copy_compounds() {
-        for (auto task = static_cast<TaskId>(old_.action_count()); task < old_.task_count(); ++task) {
+        for (const TaskId task : old_.compounds()) {
             if (living_.is_alive(task)) {
                 number_of_task_[task] = static_cast<TaskId>(copy_.task_count());
                 copy_.compound_schema.push_back(old_.compound_schema[task - old_.action_count()]);
@@ -170,8 +167,7 @@ private:
 
     void copy_methods() {
         std::vector<std::optional<MethodId>> number(old_.method_count());
-        copy_.method_part_begin.push_back(0);
-        for (MethodId method = 0; method < old_.method_count(); ++method) {
+        for (const MethodId method : old_.methods()) {
             limits_.stop_if_reached();
             if (!living_.is_method_alive(method)) {
                 continue;
@@ -184,14 +180,14 @@ private:
             copy_.method_subtasks.finish_row();
             copy_.method_positions.add_row(old_.method_positions[method]);
             copy_.method_ordering.add_row(old_.method_ordering[method]);
-            for (auto part = old_.method_part_begin[method]; part < old_.method_part_begin[method + 1]; ++part) {
+            for (const PartId part : old_.method_parts[method]) {
                 copy_.part_schema.push_back(old_.part_schema[part]);
                 copy_.part_arguments.add_row(old_.part_arguments[part]);
                 copy_.part_origin.push_back(old_.part_origin[part]);
             }
-            copy_.method_part_begin.push_back(static_cast<std::uint32_t>(copy_.part_schema.size()));
+            copy_.method_parts.share_out(copy_.part_schema.size());
         }
-        for (auto task = static_cast<TaskId>(old_.action_count()); task < old_.task_count(); ++task) {
+        for (const TaskId task : old_.compounds()) {
             if (living_.is_alive(task)) {
                 for (const MethodId method : old_.methods_of(task)) {
                     if (number[method]) {
@@ -215,8 +211,7 @@ private:
 GroundProblem without_impossible(GroundProblem problem, Limits& limits) {
     const auto mutexes = std::make_shared<const Mutexes>(problem, limits);
     problem.mutexes = mutexes;
-    const auto actions = std::views::iota(ActionId{0}, static_cast<ActionId>(problem.action_count()));
-    if (std::ranges::all_of(actions, [&](ActionId action) { return mutexes->is_possible(action); })) {
+    if (std::ranges::all_of(problem.actions(), [&](ActionId action) { return mutexes->is_possible(action); })) {
         return problem;
     }
     const Living living(problem, *mutexes, limits);

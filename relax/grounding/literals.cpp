@@ -104,7 +104,7 @@ Expander::Expander(const Knowledge& knowledge, Limits& limits) : knowledge_(know
     }
 }
 
-std::optional<std::uint32_t> Expander::fact(std::uint32_t predicate, const std::vector<Term>& terms,
+std::optional<ReachedFactId> Expander::fact(std::uint32_t predicate, const std::vector<Term>& terms,
                                             const Bindings& bindings) const {
     if (begin_[predicate] == begin_[predicate + 1]) {
         return std::nullopt;
@@ -115,7 +115,7 @@ std::optional<std::uint32_t> Expander::fact(std::uint32_t predicate, const std::
         objects.push_back(object_of(term, bindings));
     }
     const auto tuple = knowledge_.relations[predicate].find(objects);
-    return tuple ? std::optional(begin_[predicate] + *tuple) : std::nullopt;
+    return tuple ? std::optional(ReachedFactId(begin_[predicate] + *tuple)) : std::nullopt;
 }
 
 Disjunction Expander::expand_atom(const Formula& atom, bool negated, const Bindings& bindings) const {
@@ -132,7 +132,7 @@ Disjunction Expander::expand_atom(const Formula& atom, bool negated, const Bindi
     if (!knowledge_.shrinks[predicate] && is_initially_true(predicate, *tuple)) {
         return negated ? kFalse : kTrue;
     }
-    return {{2 * (begin_[predicate] + *tuple) + (negated ? 1 : 0)}};
+    return {{literal_of(ReachedFactId(begin_[predicate] + *tuple), negated)}};
 }
 
 Disjunction Expander::expand(const Formula& formula, Bindings& bindings) const {

@@ -8,16 +8,13 @@
 
 #include "facts.hpp"
 #include "relax/base/limits.hpp"
+#include "relax/problem/literal.hpp"
 
 namespace relax::grounding {
 
-// A reached fact of a predicate that can change, or its negation: twice the
-// fact's number, plus one for the negation.
-using Literal = std::uint32_t;
-
-inline Literal negation(Literal literal) { return literal ^ 1U; }
-inline bool is_negated(Literal literal) { return (literal & 1U) != 0; }
-inline std::uint32_t fact_of(Literal literal) { return literal / 2; }
+// A reached fact of a predicate that can change. Those that something reads become the facts of the ground problem.
+using ReachedFactId = Id<struct ReachedFactTag>;
+using Literal = Id<LiteralOf<ReachedFactId>>;
 
 // Sorted, without repetitions and contradictions; empty: true.
 using Conjunction = std::vector<Literal>;
@@ -59,7 +56,7 @@ public:
         return tuple < knowledge_.initial_count[predicate];
     }
     // The number of a fact that is reached and of a predicate that can change.
-    std::optional<std::uint32_t> fact(std::uint32_t predicate, const std::vector<Term>& terms,
+    std::optional<ReachedFactId> fact(std::uint32_t predicate, const std::vector<Term>& terms,
                                       const Bindings& bindings) const;
 
     // Expects normal form. What nothing can change vanishes. Slots of

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "relax/base/bits.hpp"
 #include "relax/base/ids.hpp"
 
 namespace relax::grounding {
@@ -15,9 +16,9 @@ namespace relax::grounding {
 // came.
 class ObjectSet {
 public:
-    explicit ObjectSet(std::size_t object_count = 0) : words_((object_count + 63) / 64, 0) {}
+    explicit ObjectSet(std::size_t object_count = 0) : words_(words_for(object_count), 0) {}
 
-    bool contains(ObjectId object) const { return (words_[object / 64] >> (object % 64) & 1U) != 0; }
+    bool contains(ObjectId object) const { return has_bit(words_, object); }
     std::span<const ObjectId> members() const { return members_; }
     std::size_t size() const { return members_.size(); }
     bool empty() const { return members_.empty(); }
@@ -27,7 +28,7 @@ public:
         if (contains(object)) {
             return false;
         }
-        words_[object / 64] |= std::uint64_t{1} << (object % 64);
+        set_bit(words_, object);
         members_.push_back(object);
         return true;
     }
@@ -39,7 +40,7 @@ public:
             if (keep(object)) {
                 kept.push_back(object);
             } else {
-                words_[object / 64] &= ~(std::uint64_t{1} << (object % 64));
+                clear_bit(words_, object);
             }
         }
         members_ = std::move(kept);

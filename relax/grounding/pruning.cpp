@@ -35,14 +35,14 @@ public:
     // `is_met` then tells of conditions.
     std::vector<bool> run(Limits& limits) {
         is_reached_.assign(2 * is_initially_true_.size(), false);
-        is_owner_reached_.assign(cases_.begin.size() - 1, false);
+        is_owner_reached_.assign(cases_.cases.size(), false);
         unmet_.clear();
         for (std::uint32_t number = 0; number < count(); ++number) {
             limits.stop_if_reached();
             unmet_.push_back(static_cast<std::uint32_t>(condition(number).size()) + (is_case(number) ? 0 : 1));
         }
-        for (std::uint32_t fact = 0; fact < is_initially_true_.size(); ++fact) {
-            reach(2 * fact + (is_initially_true_[fact] ? 0 : 1));
+        for (const ReachedFactId fact : all_ids<ReachedFactId>(is_initially_true_.size())) {
+            reach(literal_of(fact, !is_initially_true_[fact]));
         }
         for (CaseId number = 0; number < cases_.owner.size(); ++number) {
             if (unmet_[number] == 0) {
@@ -97,7 +97,7 @@ private:
         const NodeId owner = cases_.owner[number];
         if (cases_.is_alive[number] && !is_owner_reached_[owner]) {
             is_owner_reached_[owner] = true;
-            for (std::uint32_t effect = cases_.effect_begin[owner]; effect < cases_.effect_begin[owner + 1]; ++effect) {
+            for (const EffectId effect : cases_.effects[owner]) {
                 meet(static_cast<std::uint32_t>(cases_.owner.size()) + effect);
             }
         }
@@ -117,7 +117,7 @@ private:
 void bury_actions(TaskGraph& graph, const Cases& cases) {
     for (NodeId node = 0; node < graph.action_node_count; ++node) {
         bool is_alive = false;
-        for (CaseId number = cases.begin[node]; number < cases.begin[node + 1]; ++number) {
+        for (const CaseId number : cases.cases[node]) {
             is_alive = is_alive || cases.is_alive[number];
         }
         graph.is_node_alive[node] = graph.is_node_alive[node] && is_alive;

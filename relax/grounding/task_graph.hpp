@@ -8,6 +8,7 @@
 #include "demand.hpp"
 #include "facts.hpp"
 #include "relax/base/limits.hpp"
+#include "relax/base/rows.hpp"
 
 namespace relax::grounding {
 

@@ -62,7 +62,7 @@ public:
 private:
     static std::vector<Cost> slacks(const GroundProblem& problem, const std::vector<Cost>& bounds) {
         std::vector<Cost> slacks;
-        for (MethodId method = 0; method < problem.method_count(); ++method) {
+        for (const MethodId method : problem.methods()) {
             Cost sum = 0;
             for (const TaskId subtask : problem.method_subtasks[method]) {
                 sum = add_bounds(sum, bounds[subtask]);

@@ -38,7 +38,7 @@ RelaxedModel RelaxedModel::composition(const GroundProblem& problem, const Price
     RelaxedModel model(problem, prices.actions, prices.parts, limits);
     model.first_settled_ = static_cast<RelaxedFact>(model.fact_count_);
     model.method_operator.resize(problem.method_count());
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         limits.stop_if_reached();
         const auto first = static_cast<OperatorId>(model.operator_count());
         model.add_action(problem, action, action);
@@ -49,7 +49,7 @@ RelaxedModel RelaxedModel::composition(const GroundProblem& problem, const Price
         }
         model.task_operators.finish_row();
     }
-    for (auto task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
+    for (const TaskId task : problem.compounds()) {
         for (const MethodId method : problem.methods_of(task)) {
             limits.stop_if_reached();
             model.add_composition(problem, method);
@@ -66,11 +66,11 @@ RelaxedModel RelaxedModel::decomposition(const GroundProblem& problem, std::span
     model.may_start_begin_ = static_cast<RelaxedFact>(model.fact_count_);
     model.action_starts_ = static_cast<RelaxedFact>(problem.action_count());
     model.fact_count_ += problem.task_count();
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         limits.stop_if_reached();
         model.add_action(problem, action, model.free_owner());
     }
-    for (MethodId method = 0; method < problem.method_count(); ++method) {
+    for (const MethodId method : problem.methods()) {
         limits.stop_if_reached();
         model.add_decomposition(problem, method);
     }
@@ -86,12 +86,12 @@ RelaxedModel::RelaxedModel(const GroundProblem& problem, std::span<const Cost> c
     owner_cost.insert(owner_cost.end(), parts.begin(), parts.end());
     owner_cost.push_back(0);
     std::vector<FactId> negative = facts_of_priced_parts(problem, parts, limits);
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         limits.stop_if_reached();
         const auto row = problem.negative_preconditions[action];
         negative.insert(negative.end(), row.begin(), row.end());
     }
-    for (EffectId effect = 0; effect < problem.effect_negative_conditions.size(); ++effect) {
+    for (const EffectId effect : all_ids<EffectId>(problem.effect_negative_conditions.size())) {
         limits.stop_if_reached();
         const auto row = problem.effect_negative_conditions[effect];
         negative.insert(negative.end(), row.begin(), row.end());
@@ -129,7 +129,7 @@ void RelaxedModel::add_action(const GroundProblem& problem, ActionId action, Own
     }
     settle_costs(problem, action, needed);
     std::vector<RelaxedFact> always{reached(action)};
-    for (EffectId effect = problem.effect_begin[action]; effect < problem.effect_begin[action + 1]; ++effect) {
+    for (const EffectId effect : problem.effects[action]) {
         std::vector<RelaxedFact> made;
         for (const FactId fact : problem.effect_adds[effect]) {
             made.push_back(holds(fact));

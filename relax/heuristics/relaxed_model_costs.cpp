@@ -8,9 +8,9 @@ namespace relax {
 std::vector<FactId> RelaxedModel::facts_of_priced_parts(const GroundProblem& problem, std::span<const Cost> parts,
                                                         Limits& limits) {
     std::vector<FactId> facts;
-    for (CostPartId part = 0; part < parts.size(); ++part) {
+    for (const CostPartId part : all_ids<CostPartId>(parts.size())) {
         limits.stop_if_reached();
-        for (const std::uint32_t alternative : problem.cost_alternatives(part)) {
+        for (const AlternativeId alternative : problem.cost_alternatives[part]) {
             for (const auto& row :
                  {problem.cost_conditions[alternative], problem.cost_negative_conditions[alternative]}) {
                 facts.insert(facts.end(), row.begin(), parts[part] > 0 ? row.end() : row.begin());
@@ -26,14 +26,14 @@ void RelaxedModel::settle_costs(const GroundProblem& problem, ActionId action, s
     if (is_decomposition()) {
         asked_for.push_back(may_start(action));
     }
-    for (const CostPartId part : problem.cost_parts(action)) {
+    for (const CostPartId part : problem.cost_parts[action]) {
         if (owner_cost[part_owner(part)] == 0) {
             continue;
         }
         const RelaxedFact settled = add_fact();
-        const auto alternatives = problem.cost_alternatives(part);
+        const auto alternatives = problem.cost_alternatives[part];
         std::vector<RelaxedFact> not_due = needed;
-        for (const std::uint32_t alternative : alternatives) {
+        for (const AlternativeId alternative : alternatives) {
             std::vector<RelaxedFact> due = needed;
             for (const FactId fact : problem.cost_conditions[alternative]) {
                 due.push_back(holds(fact));
@@ -58,7 +58,7 @@ void RelaxedModel::settle_costs(const GroundProblem& problem, ActionId action, s
 }
 
 // The ways in which an alternative of a condition does not hold: one of its facts is false, or of those negated true.
-void RelaxedModel::add_failures(const GroundProblem& problem, std::uint32_t alternative,
+void RelaxedModel::add_failures(const GroundProblem& problem, AlternativeId alternative,
                                 const std::vector<RelaxedFact>& needed, RelaxedFact made) {
     const auto add = [&](RelaxedFact fails) {
         std::vector<RelaxedFact> all = needed;

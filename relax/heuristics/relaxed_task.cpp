@@ -80,7 +80,7 @@ void RelaxedTask::start_in_order(const NodeView& node) {
         start_one_by_one(node.tasks);
         return;
     }
-    const std::size_t words = (node.tasks.size() + 63) / 64;
+    const std::size_t words = words_for(node.tasks.size());
     for (std::size_t at = 0; at < node.tasks.size(); ++at) {
         limits_.stop_if_reached();
         needed_.clear();

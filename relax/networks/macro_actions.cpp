@@ -24,10 +24,10 @@ MacroActions::MacroActions(const GroundProblem& problem, Limits& limits)
 }
 
 bool MacroActions::fits(ActionId action) const {
-    if (!problem_.cost_parts(action).empty()) {
+    if (!problem_.cost_parts[action].empty()) {
         return false;
     }
-    for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {
+    for (const EffectId effect : problem_.effects[action]) {
         if (!problem_.effect_conditions[effect].empty() || !problem_.effect_negative_conditions[effect].empty()) {
             return false;
         }
@@ -47,22 +47,20 @@ std::optional<MacroId> MacroActions::prepend(ActionId action, MacroId rest) {
 MacroActions::Macro MacroActions::of_action(ActionId action) const {
     Macro macro;
     for (const FactId fact : problem_.preconditions[action]) {
-        put(macro.needed, 2 * fact);
+        put(macro.needed, literal_of(fact));
     }
     for (const FactId fact : problem_.negative_preconditions[action]) {
-        put(macro.needed, 2 * fact + 1);
+        put(macro.needed, literal_of(fact, true));
     }
-    const EffectId begin = problem_.effect_begin[action];
-    const EffectId end = problem_.effect_begin[action + 1];
-    for (EffectId effect = begin; effect < end; ++effect) {
+    for (const EffectId effect : problem_.effects[action]) {
         for (const FactId fact : problem_.effect_adds[effect]) {
-            put(macro.made, 2 * fact);
+            put(macro.made, literal_of(fact));
         }
     }
-    for (EffectId effect = begin; effect < end; ++effect) {
+    for (const EffectId effect : problem_.effects[action]) {
         for (const FactId fact : problem_.effect_deletes[effect]) {
-            if (!has(macro.made, 2 * fact)) {  // adding wins over deleting
-                put(macro.made, 2 * fact + 1);
+            if (!has(macro.made, literal_of(fact))) {  // adding wins over deleting
+                put(macro.made, literal_of(fact, true));
             }
         }
     }

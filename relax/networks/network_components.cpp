@@ -8,7 +8,7 @@ namespace relax {
 
 ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std::uint32_t>* order_of_it) {
     const std::size_t count = draft.tasks.size();
-    const std::size_t words = row_words(count);
+    const std::size_t words = words_for(count);
     const auto order = canonical_.of(draft);
     place_.resize(count);
     for (std::size_t index = 0; index < count; ++index) {
@@ -21,7 +21,7 @@ ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std
     for (std::size_t index = 0; index < count; ++index) {
         bool is_unconstrained = true;
         for_each_bit(draft.row(order[index]), [&](std::size_t earlier) {
-            form_[index * words + place_[earlier] / 64] |= std::uint64_t{1} << (place_[earlier] % 64);
+            set_bit(std::span(form_).subspan(index * words, words), place_[earlier]);
             is_unconstrained = false;
         });
         unconstrained += is_unconstrained ? 1 : 0;

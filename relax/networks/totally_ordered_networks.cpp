@@ -48,7 +48,7 @@ std::vector<std::uint32_t> sequence_of(const GroundProblem& problem, MethodId me
 TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
                                                bool use_macros, Limits& limits)
     : problem_(problem), task_bounds_(std::move(task_bounds)) {
-    for (MethodId method = 0; method < problem.method_count(); ++method) {
+    for (const MethodId method : problem.methods()) {
         limits.stop_if_reached();
         sequence_.add_row(sequence_of(problem, method));
     }
@@ -60,7 +60,7 @@ TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std
 }
 
 bool TotallyOrderedNetworks::fits(const GroundProblem& problem) {
-    for (MethodId method = 0; method < problem.method_count(); ++method) {
+    for (const MethodId method : problem.methods()) {
         const std::size_t count = problem.method_subtasks[method].size();
         if (count > 1 && problem.method_ordering[method].size() != count * (count - 1) / 2) {
             return false;

@@ -18,7 +18,7 @@ bool meets(std::span<const std::uint64_t> state, std::span<const FactId> needed,
 StateBits StateTransition::initial_state() const {
     StateBits state(word_count(), 0);
     for (const FactId fact : problem_.initial_state) {
-        set_fact(state, fact);
+        set_bit(state, fact);
     }
     return state;
 }
@@ -30,26 +30,24 @@ bool StateTransition::is_applicable(ActionId action, std::span<const std::uint64
 void StateTransition::apply(ActionId action, std::span<const std::uint64_t> state,
                             std::span<std::uint64_t> next) const {
     std::copy(state.begin(), state.end(), next.begin());
-    const EffectId begin = problem_.effect_begin[action];
-    const EffectId end = problem_.effect_begin[action + 1];
-    for (EffectId effect = begin; effect < end; ++effect) {
+    for (const EffectId effect : problem_.effects[action]) {
         if (fires(effect, state)) {
             for (const FactId fact : problem_.effect_deletes[effect]) {
-                clear_fact(next, fact);
+                clear_bit(next, fact);
             }
         }
     }
-    for (EffectId effect = begin; effect < end; ++effect) {
+    for (const EffectId effect : problem_.effects[action]) {
         if (fires(effect, state)) {
             for (const FactId fact : problem_.effect_adds[effect]) {
-                set_fact(next, fact);
+                set_bit(next, fact);
             }
         }
     }
 }
 
 bool StateTransition::is_due(CostPartId part, std::span<const std::uint64_t> state) const {
-    return std::ranges::any_of(problem_.cost_alternatives(part), [&](std::uint32_t alternative) {
+    return std::ranges::any_of(problem_.cost_alternatives[part], [&](AlternativeId alternative) {
         return meets(state, problem_.cost_conditions[alternative], problem_.cost_negative_conditions[alternative]);
     });
 }

@@ -12,8 +12,6 @@ constexpr std::uint32_t kMostSteps = 64;
 constexpr std::uint64_t kFirst = 200;  // networks, which it is asked about in any case
 constexpr std::uint64_t kOneIn = 50;
 
-bool has(std::span<const std::uint64_t> row, std::size_t index) { return (row[index / 64] >> (index % 64) & 1U) != 0; }
-
 }  // namespace
 
 bool Ending::is_possible(const OrderedTasks& network) {
@@ -42,7 +40,7 @@ bool Ending::can_end(const OrderedTasks& network, MacroId last) {
     }
     const std::size_t first = candidates_.size();
     for (std::uint32_t index = 0; index < count; ++index) {
-        if (is_left_[index] && !has(is_before_, index)) {
+        if (is_left_[index] && !has_bit(is_before_, index)) {
             candidates_.push_back(index);
         }
     }

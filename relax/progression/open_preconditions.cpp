@@ -27,11 +27,11 @@ bool OpenPreconditions::can_be_met(const OrderedTasks& network, std::size_t task
     bool is_threatened = false;
     for (std::size_t earlier = 0; earlier < network.tasks.size(); ++earlier) {
         if (network.is_before(earlier, task) && occurring_[earlier]->undoes.contains(literal)) {
-            threats_[earlier / 64] |= std::uint64_t{1} << (earlier % 64);
+            set_bit(threats_, earlier);
             is_threatened = true;
         }
     }
-    if (!is_threatened && holds(initial_state_, literal / 2) == (literal % 2 == 0)) {
+    if (!is_threatened && holds(initial_state_, literal)) {
         return true;
     }
     for (std::size_t maker = 0; maker < network.tasks.size(); ++maker) {

@@ -44,7 +44,7 @@ Progression::Progression(const GroundProblem& problem, Prices prices, std::vecto
       branching_(problem),
       next_(transition_.word_count()),
       waits_until_due_(options.when_due && options.skip_dead_methods) {
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         is_executed_at_once_.push_back(costs_and_changes_nothing(action));
     }
     if (options.stubborn_sets) {
@@ -54,7 +54,7 @@ Progression::Progression(const GroundProblem& problem, Prices prices, std::vecto
         relevant_facts_.emplace(problem, limits);
     }
     if (options.skip_dead_methods) {
-        for (MethodId method = 0; method < problem.method_count(); ++method) {
+        for (const MethodId method : problem.methods()) {
             limits.stop_if_reached();
             first_action_.push_back(first_action(problem, method, options.in_sequence));
         }
@@ -178,7 +178,7 @@ void Progression::choose_actions(StateId state, NetworkId network) {
 }
 
 void Progression::execute_at_once_only(const std::vector<bool>& actions) {
-    for (ActionId action = 0; action < problem_.action_count(); ++action) {
+    for (const ActionId action : problem_.actions()) {
         is_executed_at_once_[action] = is_executed_at_once_[action] && actions[action];
     }
 }
@@ -186,13 +186,13 @@ void Progression::execute_at_once_only(const std::vector<bool>& actions) {
 // Whether the action changes nothing, and costs nothing whatever the state is.
 bool Progression::costs_and_changes_nothing(ActionId action) const {
     return transition_.has_no_effect(action) && prices_.actions[action] == 0 &&
-           std::ranges::all_of(problem_.cost_parts(action),
+           std::ranges::all_of(problem_.cost_parts[action],
                                [this](CostPartId part) { return prices_.parts[part] == 0; });
 }
 
 Cost Progression::cost(ActionId action, std::span<const std::uint64_t> state) const {
     Cost sum = prices_.actions[action];
-    for (const CostPartId part : problem_.cost_parts(action)) {
+    for (const CostPartId part : problem_.cost_parts[action]) {
         if (transition_.is_due(part, state)) {
             sum = add_bounds(sum, prices_.parts[part]);
         }

@@ -19,11 +19,11 @@ void unite(std::span<std::uint64_t> into, std::span<const std::uint64_t> other) 
 RelevantFacts::RelevantFacts(const GroundProblem& problem, Limits& limits)
     : problem_(problem),
       limits_(limits),
-      words_((problem.fact_count() + 63) / 64),
+      words_(words_for(problem.fact_count())),
       component_(problem.task_count(), kUnvisited),
       masks_(words_),
       mask_(words_) {
-    for (ActionId action = 0; action < problem.action_count(); ++action) {
+    for (const ActionId action : problem.actions()) {
         limits.stop_if_reached();
         component_[action] = component_count_++;
         masks_of_components_.resize(component_count_ * words_, 0);
@@ -36,17 +36,17 @@ void RelevantFacts::add_reads(ActionId action) {
     const auto mask = std::span(masks_of_components_).last(words_);
     const auto add = [mask](std::span<const FactId> facts) {
         for (const FactId fact : facts) {
-            set_fact(mask, fact);
+            set_bit(mask, fact);
         }
     };
     add(problem_.preconditions[action]);
     add(problem_.negative_preconditions[action]);
-    for (EffectId effect = problem_.effect_begin[action]; effect < problem_.effect_begin[action + 1]; ++effect) {
+    for (const EffectId effect : problem_.effects[action]) {
         add(problem_.effect_conditions[effect]);
         add(problem_.effect_negative_conditions[effect]);
     }
-    for (const CostPartId part : problem_.cost_parts(action)) {
-        for (const std::uint32_t alternative : problem_.cost_alternatives(part)) {
+    for (const CostPartId part : problem_.cost_parts[action]) {
+        for (const AlternativeId alternative : problem_.cost_alternatives[part]) {
             add(problem_.cost_conditions[alternative]);
             add(problem_.cost_negative_conditions[alternative]);
         }
@@ -70,7 +70,7 @@ void RelevantFacts::find_components() {
         stack.push_back(task);
         visits.push_back({task, 0, 0});
     };
-    for (auto root = static_cast<TaskId>(problem_.action_count()); root < problem_.task_count(); ++root) {
+    for (const TaskId root : problem_.compounds()) {
         if (number[root] == kUnvisited) {
             enter(root);
         }

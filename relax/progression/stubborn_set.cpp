@@ -7,17 +7,6 @@
 
 namespace relax {
 
-namespace {
-
-bool has(std::span<const std::uint64_t> row, std::size_t index) { return (row[index / 64] >> (index % 64) & 1U) != 0; }
-void add(std::span<std::uint64_t> row, std::size_t index) { row[index / 64] |= std::uint64_t{1} << (index % 64); }
-
-bool is_true(std::span<const std::uint64_t> state, Literal literal) {
-    return holds(state, literal / 2) == (literal % 2 == 0);
-}
-
-}  // namespace
-
 std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks& network,
                                                              std::span<const std::uint64_t> state,
                                                              std::span<const Occurrence> unconstrained) {
@@ -37,9 +26,9 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
             compounds_.makes.insert_all(occurring_[occurrence.index]->makes);
             continue;
         }
-        add(is_open_, occurrence.index);
+        set_bit(is_open_, occurrence.index);
         if (transition_.is_applicable(occurrence.task, state)) {
-            add(is_applicable_, occurrence.index);
+            set_bit(is_applicable_, occurrence.index);
         }
     }
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
@@ -52,7 +41,7 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
             continue;
         }
         const auto count = static_cast<std::size_t>(
-            std::ranges::count_if(members_, [this](std::uint32_t member) { return has(is_applicable_, member); }));
+            std::ranges::count_if(members_, [this](std::uint32_t member) { return has_bit(is_applicable_, member); }));
         if (count < fewest) {
             fewest = count;
             best = is_member_;
@@ -66,7 +55,7 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
     }
     found_.clear();
     std::ranges::copy_if(unconstrained, std::back_inserter(found_), [&](const Occurrence& occurrence) {
-        return has(best, occurrence.index) && has(is_applicable_, occurrence.index);
+        return has_bit(best, occurrence.index) && has_bit(is_applicable_, occurrence.index);
     });
     return found_;
 }
@@ -85,10 +74,11 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
         }
         work_ += network.tasks.size();
         for (std::uint32_t other = 0; other < network.tasks.size(); ++other) {
-            if (has(is_member_, other) || has(is_after_, other) || !concerns(*occurring_[other], member, state)) {
+            if (has_bit(is_member_, other) || has_bit(is_after_, other) ||
+                !concerns(*occurring_[other], member, state)) {
                 continue;
             }
-            if (has(is_open_, other)) {
+            if (has_bit(is_open_, other)) {
                 put(other);
                 continue;
             }
@@ -117,7 +107,7 @@ std::optional<std::uint32_t> StubbornSet::open_before(const OrderedTasks& networ
 
 void StubbornSet::put(std::uint32_t index) {
     members_.push_back(index);
-    add(is_member_, index);
+    set_bit(is_member_, index);
     for (std::size_t word = 0; word < is_after_.size(); ++word) {
         is_after_[word] |= successors_.row(index)[word];
     }
@@ -126,10 +116,10 @@ void StubbornSet::put(std::uint32_t index) {
 // Whether executing the other task before the member may bar, enable or change the member, or the reverse.
 bool StubbornSet::concerns(const TaskProfile& other, std::uint32_t member, std::span<const std::uint64_t> state) const {
     const TaskProfile& action = *occurring_[member];
-    if (!has(is_applicable_, member)) {
+    if (!has_bit(is_applicable_, member)) {
         // One precondition that is false is enough: nobody else makes it true.
         const auto open =
-            std::ranges::find_if(action.preconditions, [state](Literal literal) { return !is_true(state, literal); });
+            std::ranges::find_if(action.preconditions, [state](Literal literal) { return !holds(state, literal); });
         return other.makes.contains(*open);
     }
     return std::ranges::any_of(action.read_list,

@@ -15,8 +15,8 @@ namespace {
 // By TaskId: the choices between cases of an action, whose methods are none of the domain's.
 std::vector<bool> find_choices(const GroundProblem& problem) {
     std::vector<bool> is_choice(problem.task_count(), false);
-    for (MethodId method = 0; method < problem.method_count(); ++method) {
-        if (problem.method_part_begin[method] == problem.method_part_begin[method + 1]) {
+    for (const MethodId method : problem.methods()) {
+        if (problem.method_parts[method].empty()) {
             is_choice[problem.method_task[method]] = true;
         }
     }
@@ -27,7 +27,7 @@ std::vector<bool> find_choices(const GroundProblem& problem) {
 std::vector<Cost> make_bounds(const GroundProblem& problem, std::span<const Cost> costs,
                               const std::vector<bool>& is_choice, HeuristicKind heuristic, Limits& limits) {
     std::vector<Cost> bounds = tdg_bound(problem, costs, limits);
-    for (auto task = static_cast<TaskId>(problem.action_count()); task < problem.task_count(); ++task) {
+    for (const TaskId task : problem.compounds()) {
         if (heuristic == HeuristicKind::Blind && !is_choice[task]) {
             bounds[task] = 0;
         }

@@ -41,7 +41,7 @@ void trace_steps(const GroundProblem& problem, const Prices& prices, Progression
             const TaskId action = result.decomposition[here].task;
             result.cost = add_bounds(*result.cost, prices.actions[action]);
             std::uint32_t due = 0;
-            for (const CostPartId part : problem.cost_parts(action)) {
+            for (const CostPartId part : problem.cost_parts[action]) {
                 if (transition.is_due(part, state)) {
                     result.cost = add_bounds(*result.cost, prices.parts[part]);
                     result.due_parts.push_back(part);

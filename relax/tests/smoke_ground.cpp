@@ -29,8 +29,8 @@ relax::LiftedProblem line(std::uint32_t places) {
     problem.object_count = places;
     problem.predicate_count = 3;
     problem.domains.resize(1);
-    for (relax::ObjectId place = 0; place < places; ++place) {
-        problem.domains[0].push_back(place);
+    for (std::uint32_t place = 0; place < places; ++place) {
+        problem.domains[0].emplace_back(place);
         if (place > 0) {
             problem.initial_state.push_back({road, place - 1, place});
         }
@@ -73,7 +73,7 @@ bool solve(std::uint32_t places) {
         return false;
     }
     relax::Prices prices;
-    for (relax::ActionId action = 0; action < problem->action_count(); ++action) {
+    for (const relax::ActionId action : problem->actions()) {
         const std::uint32_t schema = problem->action_schema[action];
         const relax::Cost dark = problem->action_cost_blocks[action].empty() ? 0 : 10;
         prices.actions.push_back(schema == 0 ? 1 + dark : schema == 1 ? 2 : 0);

@@ -14,9 +14,12 @@ namespace {
 
 using Facts = std::vector<relax::FactId>;
 
-constexpr relax::FactId kPlaces = 3;
+constexpr std::uint32_t kPlaces = 3;
 // Facts: the lorry is at 0, 1, 2; the parcel is at 3, 4, 5, or in the lorry: 6.
-constexpr relax::FactId kInside = 2 * kPlaces;
+constexpr relax::FactId kInside{2 * kPlaces};
+
+relax::FactId lorry_at(std::uint32_t place) { return relax::FactId{place}; }
+relax::FactId parcel_at(std::uint32_t place) { return relax::FactId{kPlaces + place}; }
 
 void add_action(relax::GroundProblem& problem, const Facts& needs, const Facts& adds, const Facts& deletes) {
     problem.preconditions.add_row(needs);
@@ -25,30 +28,28 @@ void add_action(relax::GroundProblem& problem, const Facts& needs, const Facts& 
     problem.effect_negative_conditions.finish_row();
     problem.effect_adds.add_row(adds);
     problem.effect_deletes.add_row(deletes);
-    problem.effect_begin.push_back(problem.effect_begin.back() + 1);
-    problem.cost_part_begin.push_back(0);
+    problem.effects.share_out(problem.effect_adds.size());
+    problem.cost_parts.share_out(0);
     problem.action_schema.push_back(0);
 }
 
-relax::ActionId drive(relax::FactId from, relax::FactId to) { return from * kPlaces + to; }
-relax::ActionId load(relax::FactId at) { return kPlaces * kPlaces + 2 * at; }
-relax::ActionId unload(relax::FactId at) { return load(at) + 1; }
+relax::ActionId drive(std::uint32_t from, std::uint32_t to) { return from * kPlaces + to; }
+relax::ActionId load(std::uint32_t at) { return kPlaces * kPlaces + 2 * at; }
+relax::ActionId unload(std::uint32_t at) { return load(at) + 1; }
 
 relax::GroundProblem make_problem() {
     relax::GroundProblem problem;
     problem.fact_predicate.assign(kInside + 1, 0);
-    problem.effect_begin.push_back(0);
-    problem.cost_part_begin.push_back(0);
-    for (relax::FactId from = 0; from < kPlaces; ++from) {
-        for (relax::FactId to = 0; to < kPlaces; ++to) {
-            add_action(problem, {from}, {to}, {from});
+    for (std::uint32_t from = 0; from < kPlaces; ++from) {
+        for (std::uint32_t to = 0; to < kPlaces; ++to) {
+            add_action(problem, {lorry_at(from)}, {lorry_at(to)}, {lorry_at(from)});
         }
     }
-    for (relax::FactId at = 0; at < kPlaces; ++at) {
-        add_action(problem, {at, kPlaces + at}, {kInside}, {kPlaces + at});
-        add_action(problem, {at, kInside}, {kPlaces + at}, {kInside});
+    for (std::uint32_t at = 0; at < kPlaces; ++at) {
+        add_action(problem, {lorry_at(at), parcel_at(at)}, {kInside}, {parcel_at(at)});
+        add_action(problem, {lorry_at(at), kInside}, {parcel_at(at)}, {kInside});
     }
-    problem.initial_state = {0, kPlaces + 1};
+    problem.initial_state = {lorry_at(0), parcel_at(1)};
     return problem;
 }
 
@@ -61,7 +62,7 @@ bool finds_mutexes(const relax::GroundProblem& problem) {
     while (!pending.empty()) {
         const relax::StateBits state = pending.back();
         pending.pop_back();
-        for (relax::ActionId action = 0; action < problem.action_count(); ++action) {
+        for (const relax::ActionId action : problem.actions()) {
             if (transition.is_applicable(action, state)) {
                 transition.apply(action, state, next);
                 if (reached.insert(next).second) {
@@ -72,13 +73,13 @@ bool finds_mutexes(const relax::GroundProblem& problem) {
     }
     relax::Limits limits;
     const relax::Mutexes mutexes(problem, limits);
-    for (relax::FactId one = 0; one <= kInside; ++one) {
-        for (relax::FactId other = 0; other <= kInside; ++other) {
+    for (const relax::FactId one : problem.facts()) {
+        for (const relax::FactId other : problem.facts()) {
             bool together = one == other;
             for (const relax::StateBits& state : reached) {
                 together = together || (relax::holds(state, one) && relax::holds(state, other));
             }
-            if (mutexes.are_mutex(2 * one, 2 * other) == together) {
+            if (mutexes.are_mutex(relax::literal_of(one), relax::literal_of(other)) == together) {
                 return false;
             }
         }

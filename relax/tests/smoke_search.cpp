@@ -10,27 +10,27 @@
 
 namespace {
 
-using Facts = std::vector<relax::FactId>;
+using Numbers = std::initializer_list<std::uint32_t>;
+
+template <typename Index>
+std::vector<Index> ids_of(Numbers numbers) {
+    return {numbers.begin(), numbers.end()};
+}
 
 class Builder {
 public:
-    relax::ActionId action(const Facts& needs, const Facts& adds, const Facts& deletes) {
-        problem.preconditions.add_row(needs);
+    relax::ActionId action(Numbers needs, Numbers adds, Numbers deletes) {
+        problem.preconditions.add_row(ids_of<relax::FactId>(needs));
         problem.negative_preconditions.finish_row();
-        if (problem.effect_begin.empty()) {
-            problem.effect_begin.push_back(0);
-            problem.cost_part_begin.push_back(0);
-            problem.cost_alternative_begin.push_back(0);
-        }
         problem.effect_conditions.finish_row();
         problem.effect_negative_conditions.finish_row();
-        problem.effect_adds.add_row(adds);
-        problem.effect_deletes.add_row(deletes);
-        problem.effect_begin.push_back(problem.effect_begin.back() + 1);
+        problem.effect_adds.add_row(ids_of<relax::FactId>(adds));
+        problem.effect_deletes.add_row(ids_of<relax::FactId>(deletes));
+        problem.effects.share_out(problem.effect_adds.size());
         problem.action_schema.push_back(static_cast<std::uint32_t>(problem.action_schema.size()));
         problem.action_arguments.finish_row();
         problem.action_cost_blocks.finish_row();
-        problem.cost_part_begin.push_back(0);
+        problem.cost_parts.share_out(0);
         return static_cast<relax::ActionId>(problem.action_schema.size() - 1);
     }
 
@@ -43,10 +43,7 @@ public:
 
     void method(relax::TaskId task, const std::vector<relax::TaskId>& subtasks, bool ordered) {
         problem.method_task.push_back(task);
-        if (problem.method_part_begin.empty()) {
-            problem.method_part_begin.push_back(0);
-        }
-        problem.method_part_begin.push_back(problem.method_part_begin.back() + 1);
+        problem.method_parts.share_out(problem.method_task.size());
         problem.method_subtasks.add_row(subtasks);
         for (std::uint32_t position = 0; position < subtasks.size(); ++position) {
             problem.method_positions.push({0, position});
@@ -62,7 +59,7 @@ public:
         for (std::uint32_t compound = 0; compound < count; ++compound) {
             problem.compound_schema.push_back(compound);
             problem.compound_arguments.finish_row();
-            for (relax::MethodId id = 0; id < problem.method_count(); ++id) {
+            for (const relax::MethodId id : problem.methods()) {
                 if (problem.method_task[id] == problem.action_count() + compound) {
                     problem.compound_methods.push(id);
                 }

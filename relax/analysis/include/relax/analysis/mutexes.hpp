@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "relax/analysis/task_profiles.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/problem/ground_problem.hpp"
+#include "relax/problem/literal.hpp"
 
 namespace relax {
 
@@ -40,7 +40,9 @@ private:
     using Index = std::uint32_t;  // of a fact, or of a negated fact that is read: these come after the facts
     static constexpr Index kUnread = std::numeric_limits<Index>::max();
 
-    Index index(Literal literal) const { return literal % 2 == 0 ? literal / 2 : negated_[literal / 2]; }
+    Index index(Literal literal) const {
+        return is_negated(literal) ? negated_[fact_of(literal)] : Index{fact_of(literal)};
+    }
     std::span<const std::uint64_t> row(Index index) const {
         return std::span(together_).subspan(index * words_, words_);
     }

@@ -7,25 +7,22 @@
 #include <memory>
 #include <vector>
 
+#include "relax/base/bits.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/problem/ground_problem.hpp"
+#include "relax/problem/literal.hpp"
 
 namespace relax {
-
-// A fact or its negation: 2 * fact, plus 1 for the negation.
-using Literal = std::uint32_t;
-
-constexpr Literal negation(Literal literal) { return literal ^ 1U; }
 
 // A set of literals, as bits.
 class Literals {
 public:
-    explicit Literals(std::size_t fact_count = 0) : words_((2 * fact_count + 63) / 64, 0) {}
+    explicit Literals(std::size_t fact_count = 0) : words_(words_for(2 * fact_count), 0) {}
 
-    bool contains(Literal literal) const { return (words_[literal / 64] >> (literal % 64) & 1U) != 0; }
-    void insert(Literal literal) { words_[literal / 64] |= std::uint64_t{1} << (literal % 64); }
-    void erase(Literal literal) { words_[literal / 64] &= ~(std::uint64_t{1} << (literal % 64)); }
+    bool contains(Literal literal) const { return has_bit(words_, literal); }
+    void insert(Literal literal) { set_bit(words_, literal); }
+    void erase(Literal literal) { clear_bit(words_, literal); }
     void clear() { std::ranges::fill(words_, 0); }
     void insert_all(const Literals& others) {
         for (std::size_t word = 0; word < words_.size(); ++word) {

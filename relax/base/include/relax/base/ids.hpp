@@ -1,76 +1,84 @@
 #ifndef RELAX_BASE_IDS_HPP
 #define RELAX_BASE_IDS_HPP
 
+#include <cassert>
+#include <compare>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include "relax/base/flat_array.hpp"
+#include <functional>
+#include <ranges>
+#include <type_traits>
 
 namespace relax {
 
+// A number in one index space. It indexes arrays and is compared with counts as a number is, but it is made of a number
+// only where that is written, and never made of, or compared with, an id of another space.
+template <typename Tag>
+class Id {
+public:
+    constexpr Id() = default;
+    template <std::integral Number>
+    constexpr explicit Id(Number number) : number_(static_cast<std::uint32_t>(number)) {
+        assert(static_cast<Number>(number_) == number);
+    }
+
+    constexpr operator std::uint32_t() const { return number_; }
+
+    constexpr Id& operator++() {
+        ++number_;
+        return *this;
+    }
+    constexpr Id operator++(int) { return Id(number_++); }
+
+    friend constexpr bool operator==(Id, Id) = default;
+    friend constexpr std::strong_ordering operator<=>(Id, Id) = default;
+
+private:
+    std::uint32_t number_ = 0;
+};
+
+template <typename One, typename Other>
+    requires(!std::same_as<One, Other>)
+bool operator==(Id<One>, Id<Other>) = delete;
+template <typename One, typename Other>
+    requires(!std::same_as<One, Other>)
+std::strong_ordering operator<=>(Id<One>, Id<Other>) = delete;
+
+// The ids from one number up to another, in order.
+template <typename Index>
+auto ids_between(std::uint32_t begin, std::uint32_t end) {
+    return std::views::iota(begin, end) | std::views::transform([](std::uint32_t number) { return Index(number); });
+}
+
+// All ids of a space of so many.
+template <typename Index>
+auto all_ids(std::size_t count) {
+    return ids_between<Index>(0, static_cast<std::uint32_t>(count));
+}
+
 // Index spaces. Each is dense and starts at 0.
-using ObjectId = std::uint32_t;
-using FactId = std::uint32_t;
+using ObjectId = Id<struct ObjectTag>;
+using FactId = Id<struct FactTag>;
 using ActionId = std::uint32_t;
-using EffectId = std::uint32_t;
-using CostPartId = std::uint32_t;
-using MethodId = std::uint32_t;
+using EffectId = Id<struct EffectTag>;
+using CostPartId = Id<struct CostPartTag>;
+using AlternativeId = Id<struct AlternativeTag>;  // of the condition of a cost part
+using MethodId = Id<struct MethodTag>;
+using PartId = Id<struct PartTag>;  // of a method
 // An action is the task of the same number; compound tasks follow the actions.
 using TaskId = std::uint32_t;
+
+static_assert(sizeof(FactId) == sizeof(std::uint32_t) && std::is_trivially_copyable_v<FactId>);
 
 // Fixed-point cost: the unit is chosen per problem, so that sums are exact.
 using Cost = std::int64_t;
 
-// Rows of different lengths in two flat arrays (compressed sparse rows).
-template <typename Value>
-class Rows {
-public:
-    std::size_t size() const { return ends_.size(); }
-    std::size_t bytes() const { return ends_.size() * sizeof(std::uint32_t) + values_.size() * sizeof(Value); }
-
-    std::span<const Value> operator[](std::size_t row) const {
-        const std::size_t begin = row == 0 ? 0 : ends_[row - 1];
-        return {values_.data() + begin, ends_[row] - begin};
-    }
-
-    // Rows of the given lengths. `fill` gets a function that puts a value at the end of what a row has so far, and must
-    // call it as often as the lengths say.
-    template <typename Fill>
-    static Rows filled(const std::vector<std::uint32_t>& lengths, Fill fill) {
-        Rows rows;
-        std::uint32_t begin = 0;
-        for (const std::uint32_t length : lengths) {
-            rows.ends_.push_back(begin);  // moves on to the end as the row is filled
-            begin += length;
-        }
-        rows.values_.resize(begin, Value{});
-        fill([&rows](std::size_t row, const Value& value) { rows.values_[rows.ends_[row]++] = value; });
-        return rows;
-    }
-
-    // Append to the row that `finish_row` will close.
-    void push(const Value& value) { values_.push_back(value); }
-    void finish_row() { ends_.push_back(static_cast<std::uint32_t>(values_.size())); }
-
-    void clear() {
-        ends_.clear();
-        values_.clear();
-    }
-
-    template <typename Range>
-    void add_row(const Range& range) {
-        values_.append(std::begin(range), std::end(range));
-        finish_row();
-    }
-
-private:
-    FlatArray<std::uint32_t> ends_;
-    FlatArray<Value> values_;
-};
-
 }  // namespace relax
+
+template <typename Tag>
+struct std::hash<relax::Id<Tag>> {
+    std::size_t operator()(relax::Id<Tag> id) const { return std::hash<std::uint32_t>{}(id); }
+};
 
 #endif

@@ -33,6 +33,7 @@
 #include "relax/analysis/prices.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
+#include "relax/base/rows.hpp"
 #include "relax/problem/ground_problem.hpp"
 
 namespace relax {
@@ -95,7 +96,7 @@ private:
     static std::vector<FactId> facts_of_priced_parts(const GroundProblem& problem, std::span<const Cost> parts,
                                                      Limits& limits);
     void settle_costs(const GroundProblem& problem, ActionId action, std::vector<RelaxedFact>& needed);
-    void add_failures(const GroundProblem& problem, std::uint32_t alternative, const std::vector<RelaxedFact>& needed,
+    void add_failures(const GroundProblem& problem, AlternativeId alternative, const std::vector<RelaxedFact>& needed,
                       RelaxedFact made);
     void add_composition(const GroundProblem& problem, MethodId method);
     void add_decomposition(const GroundProblem& problem, MethodId method);

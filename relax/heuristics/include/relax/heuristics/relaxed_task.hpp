@@ -7,6 +7,7 @@
 
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
+#include "relax/base/rows.hpp"
 #include "relax/heuristics/heuristic.hpp"
 #include "relax/heuristics/relaxed_model.hpp"
 

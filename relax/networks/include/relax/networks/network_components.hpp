@@ -38,12 +38,12 @@ public:
     Cost bound(ComponentId id) const { return records_[id].bound; }
     TaskId task(ComponentId id, std::uint32_t index) const {
         const Record& record = records_[id];
-        const std::uint64_t* tasks = record.words + record.size * row_words(record.size);
+        const std::uint64_t* tasks = record.words + record.size * words_for(record.size);
         return static_cast<TaskId>(tasks[index / 2] >> (index % 2 * 32));
     }
     // The predecessors of a task, as bits.
     std::span<const std::uint64_t> row(ComponentId id, std::uint32_t index) const {
-        const std::size_t words = row_words(records_[id].size);
+        const std::size_t words = words_for(records_[id].size);
         return {records_[id].words + index * words, words};
     }
 
@@ -56,8 +56,7 @@ private:
         std::uint32_t unconstrained;
     };
 
-    static std::size_t row_words(std::size_t count) { return (count + 63) / 64; }
-    static std::size_t form_words(std::size_t count) { return count * row_words(count) + (count + 1) / 2; }
+    static std::size_t form_words(std::size_t count) { return count * words_for(count) + (count + 1) / 2; }
 
     std::vector<Cost> task_bounds_;
     RunArena<std::uint64_t> words_;

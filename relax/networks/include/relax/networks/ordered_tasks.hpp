@@ -19,16 +19,14 @@ struct OrderedTasks {
 
     void reset(std::size_t count) {
         tasks.assign(count, 0);
-        words = (count + 63) / 64;
+        words = words_for(count);
         predecessors.assign(count * words, 0);
     }
     std::span<const std::uint64_t> row(std::size_t index) const { return {predecessors.data() + index * words, words}; }
     void put_before(std::size_t earlier, std::size_t later) {
-        predecessors[later * words + earlier / 64] |= std::uint64_t{1} << (earlier % 64);
+        set_bit(std::span(predecessors).subspan(later * words, words), earlier);
     }
-    bool is_before(std::size_t earlier, std::size_t later) const {
-        return (predecessors[later * words + earlier / 64] >> (earlier % 64) & 1U) != 0;
-    }
+    bool is_before(std::size_t earlier, std::size_t later) const { return has_bit(row(later), earlier); }
 };
 
 // Write the order turned round: for each task its successors.

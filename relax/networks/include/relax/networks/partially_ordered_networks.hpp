@@ -2,6 +2,7 @@
 #define RELAX_NETWORKS_PARTIALLY_ORDERED_NETWORKS_HPP
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -51,7 +52,7 @@ private:
         ComponentId id;
         std::vector<Origin> origins;
     };
-    static constexpr MethodId kExecuted = static_cast<MethodId>(-1);
+    static constexpr MethodId kExecuted{std::numeric_limits<std::uint32_t>::max()};
 
     std::span<const ComponentId> components(NetworkId network) const {
         return {records_[network].components, records_[network].count};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "relax/base/id_table.hpp"
+#include "relax/base/rows.hpp"
 #include "relax/base/segmented_array.hpp"
 #include "relax/networks/macro_actions.hpp"
 #include "relax/networks/task_network.hpp"

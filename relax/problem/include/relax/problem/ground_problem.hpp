@@ -12,11 +12,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <ranges>
 #include <utility>
 #include <vector>
 
 #include "relax/base/ids.hpp"
+#include "relax/base/rows.hpp"
 
 namespace relax {
 
@@ -30,19 +30,18 @@ struct GroundProblem {
     // By ActionId.
     Rows<FactId> preconditions;
     Rows<FactId> negative_preconditions;
-    std::vector<EffectId>
-        effect_begin;  // one more entry than there are actions: effects of `a` are [begin[a], begin[a + 1])
+    Shares<ActionId, EffectId> effects;
     std::vector<std::uint32_t> action_schema;
     Rows<ObjectId> action_arguments;
     // Blocks of the cost with a condition or variables that are due wherever the action can be executed: records of the
     // block's number, the number of its variables, their objects.
     Rows<std::uint32_t> action_cost_blocks;
-    std::vector<CostPartId> cost_part_begin;  // one more entry, likewise
+    Shares<ActionId, CostPartId> cost_parts;
 
-    // By CostPartId. The condition is that one of its alternatives holds: [begin[p], begin[p + 1]).
+    // By CostPartId. The condition is that one of its alternatives holds.
     Rows<std::uint32_t> cost_part_blocks;  // what is due then, as in `action_cost_blocks`
-    std::vector<std::uint32_t> cost_alternative_begin;
-    // By alternative of a cost part: all of these facts hold, none of those. Never empty, both of them.
+    Shares<CostPartId, AlternativeId> cost_alternatives;
+    // By AlternativeId: all of these facts hold, none of those. Never empty, both of them.
     Rows<FactId> cost_conditions;
     Rows<FactId> cost_negative_conditions;
 
@@ -59,9 +58,9 @@ struct GroundProblem {
 
     // By MethodId.
     std::vector<TaskId> method_task;
-    // Its parts are [begin[m], begin[m + 1]): lifted methods that were applied at once, its own first, since the tasks
-    // that the others decompose have no other method. A method of a choice has none.
-    std::vector<std::uint32_t> method_part_begin;
+    // Lifted methods that were applied at once, its own first, since the tasks that the others decompose have no other
+    // method. A method of a choice has none.
+    Shares<MethodId, PartId> method_parts;
     Rows<TaskId> method_subtasks;
     // Of each subtask: the part that it belongs to, counted from the method's first, and its index in that lifted
     // method.
@@ -69,8 +68,8 @@ struct GroundProblem {
     Rows<std::pair<std::uint32_t, std::uint32_t>>
         method_ordering;  // indices into the subtasks; transitively closed, sorted
 
-    // By part: the lifted method; the part whose subtask it decomposes, counted from the method's first, and the index
-    // of that subtask in the lifted method.
+    // By PartId: the lifted method; the part whose subtask it decomposes, counted from the method's first, and the
+    // index of that subtask in the lifted method.
     std::vector<std::uint32_t> part_schema;
     Rows<ObjectId> part_arguments;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> part_origin;
@@ -86,13 +85,18 @@ struct GroundProblem {
     std::size_t compound_count() const { return compound_schema.size(); }
     std::size_t task_count() const { return action_count() + compound_count(); }
     std::size_t method_count() const { return method_task.size(); }
-    auto cost_parts(ActionId action) const {
-        return std::views::iota(cost_part_begin[action], cost_part_begin[action + 1]);
-    }
-    auto cost_alternatives(CostPartId part) const {
-        return std::views::iota(cost_alternative_begin[part], cost_alternative_begin[part + 1]);
-    }
     std::size_t cost_part_count() const { return cost_part_blocks.size(); }
+    auto facts() const { return all_ids<FactId>(fact_count()); }
+    auto actions() const { return all_ids<ActionId>(action_count()); }
+    auto tasks() const { return all_ids<TaskId>(task_count()); }
+    auto compounds() const {
+        return ids_between<TaskId>(static_cast<TaskId>(action_count()), static_cast<TaskId>(task_count()));
+    }
+    auto methods() const { return all_ids<MethodId>(method_count()); }
+    // An effect that has no condition happens whenever its action is executed.
+    bool is_unconditional(EffectId effect) const {
+        return effect_conditions[effect].empty() && effect_negative_conditions[effect].empty();
+    }
     bool is_primitive(TaskId task) const { return task < action_count(); }
     std::span<const MethodId> methods_of(TaskId task) const { return compound_methods[task - action_count()]; }
 };

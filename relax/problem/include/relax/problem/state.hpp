@@ -5,26 +5,23 @@
 #include <span>
 #include <vector>
 
+#include "relax/base/bits.hpp"
 #include "relax/base/id_table.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/segmented_array.hpp"
 #include "relax/problem/ground_problem.hpp"
+#include "relax/problem/literal.hpp"
 
 namespace relax {
 
 using StateId = std::uint32_t;
 
-// Facts of a state as bits, in words of 64.
+// Facts of a state as bits.
 using StateBits = std::vector<std::uint64_t>;
 
-inline bool holds(std::span<const std::uint64_t> state, FactId fact) {
-    return (state[fact / 64] >> (fact % 64) & 1U) != 0;
-}
-inline void set_fact(std::span<std::uint64_t> state, FactId fact) {
-    state[fact / 64] |= std::uint64_t{1} << (fact % 64);
-}
-inline void clear_fact(std::span<std::uint64_t> state, FactId fact) {
-    state[fact / 64] &= ~(std::uint64_t{1} << (fact % 64));
+inline bool holds(std::span<const std::uint64_t> state, FactId fact) { return has_bit(state, fact); }
+inline bool holds(std::span<const std::uint64_t> state, Literal literal) {
+    return has_bit(state, fact_of(literal)) != is_negated(literal);
 }
 
 // Executes actions in states.
@@ -32,7 +29,7 @@ class StateTransition {
 public:
     explicit StateTransition(const GroundProblem& problem) : problem_(problem) {}
 
-    std::size_t word_count() const { return (problem_.fact_count() + 63) / 64; }
+    std::size_t word_count() const { return words_for(problem_.fact_count()); }
     StateBits initial_state() const;
     bool is_applicable(ActionId action, std::span<const std::uint64_t> state) const;
     // Write the state after the action into `next`. What is added wins over what is deleted.
@@ -40,9 +37,7 @@ public:
     // Whether the part of an action's cost is due in the state before the action.
     bool is_due(CostPartId part, std::span<const std::uint64_t> state) const;
     // An action that changes nothing in any state.
-    bool has_no_effect(ActionId action) const {
-        return problem_.effect_begin[action] == problem_.effect_begin[action + 1];
-    }
+    bool has_no_effect(ActionId action) const { return problem_.effects[action].empty(); }
 
 private:
     bool fires(EffectId effect, std::span<const std::uint64_t> state) const;

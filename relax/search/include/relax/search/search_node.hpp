@@ -26,7 +26,7 @@ struct SearchNode {
     bool is_forced;                 // its parent has no other successor
     bool is_followed;               // there are several ways to go on
 
-    static constexpr MethodId kExecuted = std::numeric_limits<MethodId>::max();
+    static constexpr MethodId kExecuted{std::numeric_limits<std::uint32_t>::max()};
 
     void reach(NodeId from, Cost cost, const SearchStep& step) {
         parent = from;

@@ -1,0 +1,93 @@
+#ifndef RELAX_BASE_ROWS_HPP
+#define RELAX_BASE_ROWS_HPP
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "relax/base/flat_array.hpp"
+#include "relax/base/ids.hpp"
+
+namespace relax {
+
+// Rows of different lengths in two flat arrays (compressed sparse rows).
+template <typename Value>
+class Rows {
+public:
+    std::size_t size() const { return ends_.size(); }
+    std::size_t bytes() const { return ends_.size() * sizeof(std::uint32_t) + values_.size() * sizeof(Value); }
+
+    std::span<const Value> operator[](std::size_t row) const {
+        assert(row < size());
+        const std::size_t begin = row == 0 ? 0 : ends_[row - 1];
+        return {values_.data() + begin, ends_[row] - begin};
+    }
+
+    // Rows of the given lengths. `fill` gets a function that puts a value at the end of what a row has so far, and must
+    // call it as often as the lengths say.
+    template <typename Fill>
+    static Rows filled(const std::vector<std::uint32_t>& lengths, Fill fill) {
+        Rows rows;
+        std::uint32_t begin = 0;
+        for (const std::uint32_t length : lengths) {
+            rows.ends_.push_back(begin);  // moves on to the end as the row is filled
+            begin += length;
+        }
+        rows.values_.resize(begin, Value{});
+        fill([&rows](std::size_t row, const Value& value) { rows.values_[rows.ends_[row]++] = value; });
+        assert(rows.ends_.size() == 0 || rows.ends_[rows.size() - 1] == begin);
+        return rows;
+    }
+
+    // Append to the row that `finish_row` will close.
+    void push(const Value& value) { values_.push_back(value); }
+    void finish_row() { ends_.push_back(static_cast<std::uint32_t>(values_.size())); }
+
+    void clear() {
+        ends_.clear();
+        values_.clear();
+    }
+
+    template <typename Range>
+    void add_row(const Range& range) {
+        values_.append(std::begin(range), std::end(range));
+        finish_row();
+    }
+
+private:
+    FlatArray<std::uint32_t> ends_;
+    FlatArray<Value> values_;
+};
+
+// Ids that are dealt out in order: each owner has the next few. Owners, too, are ids, and come in order.
+template <typename Owner, typename Member>
+class Shares {
+public:
+    std::size_t size() const { return ends_.size(); }
+
+    auto operator[](Owner owner) const {
+        const auto [begin, end] = bounds(owner);
+        return ids_between<Member>(begin, end);
+    }
+    std::pair<std::uint32_t, std::uint32_t> bounds(std::size_t owner) const {
+        assert(owner < size());
+        return {owner == 0 ? 0 : ends_[owner - 1], ends_[owner]};
+    }
+
+    // Give the next owner the members that come before the number `end` and have no owner yet.
+    void share_out(std::size_t end) {
+        assert(ends_.empty() || ends_.back() <= end);
+        ends_.push_back(static_cast<std::uint32_t>(end));
+    }
+
+private:
+    std::vector<std::uint32_t> ends_;
+};
+
+}  // namespace relax
+
+#endif
