@@ -16,7 +16,7 @@ import statehtn.model.cost.total as totals
 from statehtn.model import CostDistribution, CostLaw, CostSum
 from statehtn.model.cost.numerics.moment_generating import CLOSED_FORMS, _closed_form, _integrated, exponential_mean
 from statehtn.model.cost.scipy_law import ScipyCost
-from statehtn.model.cost.total import TotalCost, total_cost
+from statehtn.model.cost.sum import TotalCost, on_grid, total_cost
 
 TENTHS = st.integers(0, 60).map(lambda value: value / 10)
 
@@ -55,7 +55,7 @@ def test_the_grid_is_within_its_error(plan: list[CostDistribution], level: float
         return
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(totals, "CELLS", 64)  # coarse, so that errors show
-        grid = totals._on_grid(CostSum(tuple(plan)), uncertain)
+        grid = on_grid(CostSum(tuple(plan)), uncertain)
     error = grid.cost_error
     assert 0 < error < len(uncertain) * (exact.most - exact.least) / (64 - 2 * len(uncertain) - 2)
     assert (grid.cut_probability, grid.cut_cost) == (0, 0)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from statehtn.core.grounding import PLAIN, Grounding, GroundingSwitches, ground
 from statehtn.model import CostDistribution, Fact, GroundAction, GroundMethod, GroundProblem, Problem
-from statehtn.model.cost.total import total_cost
+from statehtn.model.cost.sum import total_cost
 from tests.naive_grounder import Decompositions, GroundTask, NaiveGrounder, NaiveGrounding
 from tests.naive_semantics import Semantics, State
 from tests.strategies import grounding_switches, problems

@@ -16,7 +16,7 @@ import statehtn
 from statehtn.model import CostDistribution, CostSum
 from statehtn.model.cost.sampled import SampledCost
 from statehtn.model.cost.scipy_law import ScipyCost
-from statehtn.model.cost.total import TotalCost
+from statehtn.model.cost.sum import TotalCost
 from statehtn.model.plan import Plan, Step
 
 AV = ("domains/av/domain.hddl", "domains/av/p1.hddl")

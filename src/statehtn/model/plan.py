@@ -11,6 +11,7 @@ from statehtn.counted import counted
 from statehtn.errors import UsageError
 from statehtn.expected import expect, items, whole_number
 from statehtn.model.cost.law import CostLaw
+from statehtn.model.cost.sum import sampled_sum, total_cost
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -129,13 +130,11 @@ class Plan:
 
         It is a `CostDistribution`, exact, where the actions' costs are lists of outcomes and their sum has not more
         than 20,000 different values; the action's own law where only one of them costs anything; otherwise a
-        `TotalCost` on a grid that knows its error. See `statehtn.model.cost.total`.
+        `TotalCost` on a grid that knows its error. See `statehtn.model.cost.sum`.
 
         Raises:
             UsageError: the plan does not know what its steps cost.
         """
-        from statehtn.model.cost.total import total_cost
-
         return total_cost(self._known_costs())
 
     def simulate(self, runs: int, seed: int = 0) -> NDArray[float64]:
@@ -147,8 +146,6 @@ class Plan:
             UsageError: the plan does not know what its steps cost, or there is not at least one run.
         """
         import numpy
-
-        from statehtn.model.cost.sum import sampled_sum
 
         if not 1 <= whole_number(runs, "the number of runs") <= MOST_RUNS:
             raise UsageError(f"the number of runs must be from 1 to {MOST_RUNS}, found {runs}")

@@ -10,7 +10,7 @@ from statehtn.experiments.report.plots import DASHES, Curve, Look, distributions
 from statehtn.experiments.report.results import Agent, Outcome
 from statehtn.experiments.report.tables import Cell, Column, Table, number
 from statehtn.model.cost.distribution import CostDistribution
-from statehtn.model.cost.total import TotalCost, total_cost
+from statehtn.model.cost.sum import TotalCost, total_cost
 
 SHADES = 3
 """So many colours there are for averse, and for seeking agents."""

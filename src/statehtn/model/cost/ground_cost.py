@@ -10,6 +10,7 @@ import math
 import warnings
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError, StateHtnError
 from statehtn.model.cost.blocks import Arithmetic, CostBlock, Expression, FunctionTerm, FunctionValues, Number
@@ -18,7 +19,9 @@ from statehtn.model.cost.law import CostLaw, is_of_scipy
 from statehtn.model.cost.sum import CostSum
 from statehtn.model.cost.unknown import MissingNumber
 from statehtn.model.formula import TRUE
-from statehtn.model.problem import Action
+
+if TYPE_CHECKING:
+    from statehtn.model.problem import Action
 
 UNIT_COST = CostDistribution.certain(1.0)
 """What every action costs where the domain states no costs at all."""

@@ -1,24 +1,19 @@
-"""The law of a sum of independent costs: exact while it has few outcomes, on a grid with a known error beyond."""
+"""The outcomes of a sum of independent costs: exact while they are few, on a grid with a known error beyond."""
 
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from fractions import Fraction
-from itertools import accumulate
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError
 from statehtn.model.cost.distribution import CostDistribution
-from statehtn.model.cost.law import MOST_DRAWN, PLOT_POINTS, CostLaw
-from statehtn.model.cost.sum import CostSum, parts_of
+from statehtn.model.cost.law import CostLaw
 
 if TYPE_CHECKING:
     from numpy import float64
-    from numpy.random import Generator
     from numpy.typing import NDArray
 
 MOST_TOTALS = 20_000
@@ -32,93 +27,7 @@ TAIL = 1e-10
 NOISE = 1e-16  # what a fast Fourier transform leaves where there is nothing
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class TotalCost(CostDistribution):
-    """The law of a sum of independent costs on a grid: its outcomes stand for all costs near them.
-
-    There is a grid variable `G` with these outcomes and the true cost `C` on one probability space, such that `C` and
-    `G` differ by at most `cost_error`, but for an event of at most `cut_probability`, in which `C` may be larger, by
-    `cut_cost` in the mean over all cases. So quantiles of `C` are within `cost_error` of those of `G` at the same
-    probability (from above: at one that is higher by `cut_probability`), and `CVaR(p)` is within
-    `cost_error + cut_cost / (1 - p)`. Probabilities are rounded to about 1e-13.
-
-    Mean, standard deviation, exponential means and samples are those of the sum itself, not of the grid.
-
-    Args:
-        summands: the sum.
-        cost_error: in the domain's unit.
-        cut_probability: 0 where all costs are bounded.
-        cut_cost: the expected cost beyond the cut, in the domain's unit.
-    """
-
-    summands: CostSum
-    cost_error: float
-    cut_probability: float = 0.0
-    cut_cost: float = 0.0
-
-    @property
-    def mean(self) -> float:
-        """The expected cost, in the domain's unit."""
-        return self.summands.mean
-
-    @property
-    def standard_deviation(self) -> float:
-        """The standard deviation of the cost, in the domain's unit."""
-        return self.summands.standard_deviation
-
-    @property
-    def least(self) -> float:
-        """The least cost that is possible."""
-        return self.summands.least
-
-    @property
-    def most(self) -> float:
-        """The largest cost that is possible; may be infinite."""
-        return self.summands.most
-
-    def exponential_mean(self, slope: float) -> float:
-        """Return `ln E[e^(slope C)] / slope`, the sum of those of the parts."""
-        return self.summands.exponential_mean(slope)
-
-    def exponential_mean_error(self, slope: float) -> float:
-        """Return the error of `exponential_mean` beyond rounding."""
-        return self.summands.exponential_mean_error(slope)
-
-    def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
-        """Draw so many independent costs with a generator of numpy."""
-        return self.summands.sample(runs, generator)
-
-    def curve(self, points: int = PLOT_POINTS) -> tuple[list[float], list[float]]:
-        """Return ascending costs, and the probability of each or less, for a drawing; its far end is left out."""
-        near = bisect_left(list(accumulate(probability for probability, _ in self.outcomes)), MOST_DRAWN)
-        return CostDistribution(self.outcomes[: near + 1]).curve(points)
-
-    def __str__(self) -> str:
-        return f"a mean of {self.mean:g}, from {self.least:g} to {self.most:g} (each cost to {self.cost_error:.2g})"
-
-
-@overload
-def total_cost(laws: Iterable[CostDistribution]) -> CostDistribution: ...
-@overload
-def total_cost(laws: Iterable[CostLaw]) -> CostLaw: ...
-def total_cost(laws: Iterable[CostLaw]) -> CostLaw:
-    """Return the law of the sum of independent costs.
-
-    It is a `CostDistribution`, exact but for one rounding of each probability and cost, where all costs are finite
-    lists of outcomes and no partial sum has more than `MOST_TOTALS` different totals (nor takes more than `MOST_PAIRS`
-    additions in all); the cost itself where there is one; a `TotalCost` otherwise.
-    """
-    parts = list(parts_of(law.summands if isinstance(law, TotalCost) else law for law in laws))
-    certain = [part for part in parts if part.least == part.most]
-    uncertain = [part for part in parts if part.least != part.most]
-    if len(uncertain) == 1 and all(part.least == 0 for part in certain):
-        return uncertain[0]
-    finite = [part for part in parts if isinstance(part, CostDistribution)]
-    exact = _convolution(finite) if len(finite) == len(parts) else None
-    return exact or _on_grid(CostSum(tuple(parts)), uncertain)
-
-
-def _convolution(laws: Sequence[CostDistribution]) -> CostDistribution | None:
+def exact_total(laws: Sequence[CostDistribution]) -> CostDistribution | None:
     """Return the sum of finite laws in exact arithmetic, None where it is too large.
 
     A float means the decimal that it prints as; probabilities are scaled to sum to 1. Costs are integers over a common
@@ -156,11 +65,16 @@ def _integers(fractions: Sequence[Fraction]) -> list[int]:
     return [value // common for value in whole]
 
 
-def _on_grid(summands: CostSum, uncertain: Sequence[CostLaw]) -> TotalCost:
-    """Return the sum on a grid.
+def grid_total(uncertain: Sequence[CostLaw], least: float, most: float) -> tuple[CostDistribution, float, float, float]:
+    """Return the sum on a grid, and its error: that of a cost, the probability and the mean cost that are cut off.
 
     Finite costs are rounded to multiples of the cell's width above their least one; what a continuous cost has in a
     cell stands in the cell's middle. The bound on the error is the sum of what was moved at most.
+
+    Args:
+        uncertain: those of the costs that are not certain.
+        least: the least sum of all.
+        most: the largest one.
     """
     import numpy
 
@@ -185,12 +99,12 @@ def _on_grid(summands: CostSum, uncertain: Sequence[CostLaw]) -> TotalCost:
     masses = numpy.fft.irfft(transform, CELLS)
     masses[masses < NOISE] = 0
     masses /= masses.sum()
-    costs = summands.least + (down + up) / 2 + width * numpy.arange(CELLS)
-    costs = numpy.clip(costs, summands.least, summands.most)  # which is nearer to the truth
+    costs = least + (down + up) / 2 + width * numpy.arange(CELLS)
+    costs = numpy.clip(costs, least, most)  # which is nearer to the truth
     kept = masses > 0
-    outcomes = CostDistribution.of(zip(masses[kept].tolist(), costs[kept].tolist(), strict=True)).outcomes
+    grid = CostDistribution.of(zip(masses[kept].tolist(), costs[kept].tolist(), strict=True))
     error = (up - down) / 2 + 1e-15 * float(costs[kept][-1])
-    return TotalCost(outcomes, summands, error, cut_probability, cut_cost)
+    return grid, error, cut_probability, cut_cost
 
 
 def _rounded_masses(law: CostLaw, width: float) -> tuple[NDArray[float64], float, float]:
