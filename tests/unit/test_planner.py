@@ -244,7 +244,7 @@ def test_greedy_search_goes_on_for_a_cheaper_plan() -> None:
     assert result.risk_cost == 3
 
 
-def test_query_takes_the_default_weight() -> None:
+def test_the_weighted_search_has_a_default_weight() -> None:
     assert Settings.of(search="weighted").weight == 2.0
     assert Settings.of(search="weighted", weight=1.5).weight == 1.5
     assert Settings.of().weight == 1.0
