@@ -15,6 +15,7 @@ namespace {
 
 constexpr auto kLookInterval = std::chrono::milliseconds(4);
 constexpr auto kPollInterval = std::chrono::milliseconds(50);
+constexpr auto kGrace = std::chrono::milliseconds(500);  // plans of a million tasks are traced in that time
 // The part of the memory limit that is left for what grows between two looks.
 constexpr std::size_t kMemoryReserve = 20;
 
@@ -32,9 +33,6 @@ Limits::Clock::time_point coarse_now() {
 }  // namespace
 
 std::optional<StopReason> Limits::look() {
-    if (suspensions_ > 0) {
-        return std::nullopt;
-    }
     const auto now = coarse_now();
     if (reason_ || now - last_look_ < kLookInterval) {
         return reason_;
@@ -51,6 +49,24 @@ std::optional<StopReason> Limits::look() {
         }
     }
     return reason_;
+}
+
+Limits::Grace::Grace(Limits& limits)
+    : limits_(limits), deadline_(limits.deadline), memory_bytes_(limits.memory_bytes), reason_(limits.reason_) {
+    const auto until = Clock::now() + kGrace;
+    if (reason_ || (deadline_ && *deadline_ < until)) {
+        limits.deadline = until;
+    }
+    if (memory_bytes_) {
+        *limits.memory_bytes += *memory_bytes_ / kMemoryReserve;
+    }
+    limits.reason_.reset();
+}
+
+Limits::Grace::~Grace() {
+    limits_.deadline = deadline_;
+    limits_.memory_bytes = memory_bytes_;
+    limits_.reason_ = reason_;
 }
 
 #if defined(__linux__)

@@ -201,7 +201,9 @@ void bind_find_plans(nb::module_& module) {
         .def_ro("stop", &relax::SearchResult::stop)
         .def_ro("statistics", &relax::SearchResult::statistics)
         .def_ro("cost", &relax::SearchResult::cost)
-        .def_ro("decomposition", &relax::SearchResult::decomposition)
+        .def_prop_ro("node_count", [](const relax::SearchResult& result) { return result.decomposition.size(); })
+        .def("node",
+             [](const relax::SearchResult& result, std::size_t index) { return result.decomposition.at(index); })
         .def_ro("plan", &relax::SearchResult::plan)
         .def_ro("due_parts", &relax::SearchResult::due_parts)
         .def_ro("due_part_counts", &relax::SearchResult::due_part_counts)

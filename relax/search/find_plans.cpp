@@ -90,19 +90,19 @@ SearchResult FindPlans::result() {
     if (!problem_.solvable) {
         return result;
     }
-    const Limits::Suspension suspension(limits_);
-    const Cost bound = proven();
+    const Limits::Grace grace(limits_);
+    const Cost bound = goal_ ? std::min(proven(), *statistics_.best) : proven();
     result.stop = stop_;
     if (goal_) {
-        trace_plan(problem_, prices_, progression_, nodes_, *goal_, result);
+        trace_plan(problem_, prices_, progression_, nodes_, *goal_, limits_, result);
     }
     if (result.cost) {
         statistics_.best = result.cost;
         statistics_.lower_bound = std::min(bound, *result.cost);
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-    } else if (!is_done_ || stop_ || bound < options_.upper_bound.value_or(kInfinity)) {
+    } else if (!is_done_ || result.stop || bound < options_.upper_bound.value_or(kInfinity)) {
         statistics_.lower_bound = bound;
-        result.status = stop_ ? status_of(*stop_) : SearchStatus::GaveUp;
+        result.status = result.stop ? status_of(*result.stop) : SearchStatus::GaveUp;
     } else {
         statistics_.lower_bound.reset();
         result.status = SearchStatus::Unsolvable;

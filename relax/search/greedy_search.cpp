@@ -61,16 +61,18 @@ SearchResult GreedySearch::result() {
     if (!problem_.solvable) {
         return result;
     }
-    const Limits::Suspension suspension(limits_);
+    const Limits::Grace grace(limits_);
     result.stop = stop_;
     statistics_.lower_bound = proven_;
     if (goal_) {
-        trace_plan(problem_, prices_, progression_, nodes_, *goal_, result);
+        trace_plan(problem_, prices_, progression_, nodes_, *goal_, limits_, result);
+    }
+    if (result.cost) {
         statistics_.best = result.cost;
         result.status = proven_ >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
         statistics_.lower_bound = std::min(proven_, *result.cost);
-    } else if (stop_) {
-        result.status = status_of(*stop_);
+    } else if (result.stop) {
+        result.status = status_of(*result.stop);
     } else if (!is_done_ || has_overflowed_ || options_.in_sequence || statistics_.evaluated >= most_evaluations_) {
         result.status = SearchStatus::GaveUp;
     } else {

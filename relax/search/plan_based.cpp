@@ -64,17 +64,22 @@ SearchResult PlanBased::run() {
     } catch (const std::bad_alloc&) {
         stop = StopReason::MemoryLimit;
     }
-    const Limits::Suspension suspension(limits_);
+    const Limits::Grace grace(limits_);
     result.stop = stop;
     if (solution_) {
         trace(result);
+    }
+    if (result.cost) {
         statistics_.best = result.cost;
         if (!stop) {
             statistics_.lower_bound = result.cost;
         }
         result.status = stop ? SearchStatus::Solved : SearchStatus::Optimal;
-    } else if (stop) {
-        result.status = status_of(*stop);
+    } else if (result.stop) {
+        result.status = status_of(*result.stop);
+        if (solution_) {
+            statistics_.lower_bound = std::min(statistics_.lower_bound.value_or(0), solution_->cost);
+        }
     } else if ((has_overflowed_ || linearisation_.has_overflowed()) && !options_.upper_bound) {
         statistics_.lower_bound = kMostCost;
         result.status = SearchStatus::GaveUp;
@@ -192,7 +197,7 @@ void PlanBased::trace(SearchResult& result) {
     }
     std::reverse(steps.begin(), steps.end());
     steps.insert(steps.end(), solution_->order.begin(), solution_->order.end());
-    trace_steps(problem_, prices_, progression_, steps, result);
+    trace_steps(problem_, prices_, progression_, steps, limits_, result);
 }
 
 }  // namespace relax

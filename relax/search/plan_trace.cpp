@@ -1,6 +1,8 @@
 #include "relax/search/plan_trace.hpp"
 
 #include <algorithm>
+#include <new>
+#include <optional>
 #include <vector>
 
 #include "relax/base/cost.hpp"
@@ -9,18 +11,20 @@
 namespace relax {
 
 void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression, const SearchSpace& nodes,
-                NodeId goal, SearchResult& result) {
+                NodeId goal, Limits& limits, SearchResult& result) {
     std::vector<SearchStep> steps;
     for (NodeId id = goal; nodes[id].parent != id; id = nodes[id].parent) {
         steps.push_back(nodes[id].step());
     }
     std::reverse(steps.begin(), steps.end());
-    trace_steps(problem, prices, progression, steps, result);
+    trace_steps(problem, prices, progression, steps, limits, result);
 }
 
-// Walk the steps once more and keep track of which task of the decomposition tree each occurrence is.
-void trace_steps(const GroundProblem& problem, const Prices& prices, Progression& progression,
-                 std::span<const SearchStep> steps, SearchResult& result) {
+namespace {
+
+// Walk the steps once more and keep track of which task of the decomposition tree each occurrence is. Throws Stopped.
+void walk(const GroundProblem& problem, const Prices& prices, Progression& progression,
+          std::span<const SearchStep> steps, Limits& limits, SearchResult& result) {
     TaskNetworks& networks = progression.networks();
     NetworkId network = progression.initial_network();
     const StateTransition transition(problem);
@@ -32,6 +36,7 @@ void trace_steps(const GroundProblem& problem, const Prices& prices, Progression
     result.decomposition.push_back({problem.initial_task, std::nullopt, std::nullopt, 0});
     result.cost = 0;
     for (const SearchStep& step : steps) {
+        limits.stop_if_reached();
         const std::uint32_t here = tree_node[step.occurrence];
         if (step.method) {
             result.decomposition[here].method = step.method;
@@ -65,6 +70,23 @@ void trace_steps(const GroundProblem& problem, const Prices& prices, Progression
         }
         tree_node.swap(next_tree_node);
     }
+}
+
+}  // namespace
+
+void trace_steps(const GroundProblem& problem, const Prices& prices, Progression& progression,
+                 std::span<const SearchStep> steps, Limits& limits, SearchResult& result) {
+    std::optional<StopReason> stop = result.stop;  // of the search, which comes first
+    try {
+        walk(problem, prices, progression, steps, limits, result);
+        return;
+    } catch (const Stopped& stopped) {
+        stop = stop ? stop : stopped.reason;
+    } catch (const std::bad_alloc&) {
+        stop = stop ? stop : StopReason::MemoryLimit;
+    }
+    result = {};
+    result.stop = stop;
 }
 
 }  // namespace relax

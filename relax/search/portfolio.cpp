@@ -177,7 +177,7 @@ SearchResult Portfolio::gather() {
     } else {
         result.status = SearchStatus::GaveUp;
     }
-    const std::optional<StopReason> stop = result.stop ? result.stop : stop_;
+    std::optional<StopReason> stop = result.stop ? result.stop : stop_;
     for (Member& member : members_) {
         if (!member.search || &member == ended_) {
             continue;
@@ -185,17 +185,22 @@ SearchResult Portfolio::gather() {
         bound = std::max(bound, member.search->lower_bound());
         if (member.search->best() && (!result.cost || *member.search->best() < *result.cost)) {
             result = member.search->result();
+            stop = stop ? stop : result.stop;
         }
     }
     add_up();
     result.stop = stop;
-    statistics_.best = result.cost;
+    if (result.cost) {
+        statistics_.best = result.cost;
+    } else if (statistics_.best) {
+        bound = std::min(bound, *statistics_.best);  // there is a plan, though there was no time to trace it
+    }
     if (result.cost) {
         statistics_.lower_bound = std::min(bound, *result.cost);
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
     } else if (result.status != SearchStatus::Unsolvable) {
         statistics_.lower_bound = bound;
-        result.status = stop_ ? status_of(*stop_) : result.status;
+        result.status = stop ? status_of(*stop) : result.status;
     } else {
         statistics_.lower_bound.reset();
     }

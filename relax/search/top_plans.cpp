@@ -73,7 +73,7 @@ TopPlansResult TopPlans::run() {
     } catch (const std::bad_alloc&) {
         result.stop = StopReason::MemoryLimit;
     }
-    const Limits::Suspension suspension(limits_);
+    const Limits::Grace grace(limits_);
     result.is_all =
         !result.stop && ((plans_.size() < options_.count && !has_overflowed_) || (open_.is_empty() && !has_pruned_));
     if (result.is_all) {
@@ -84,7 +84,15 @@ TopPlansResult TopPlans::run() {
         statistics_.lower_bound = std::min(*statistics_.lower_bound, cutoff());
     }
     for (const LabelId goal : plans_) {
-        result.plans.push_back(trace(goal));
+        SearchResult plan = trace(goal);
+        if (!plan.cost) {
+            result.stop = result.stop ? result.stop : plan.stop;
+            result.is_all = false;
+            statistics_.proven = std::min<std::uint64_t>(statistics_.proven, result.plans.size());
+            statistics_.lower_bound = std::min(statistics_.lower_bound.value_or(kMostCost), labels_[goal].g);
+            break;
+        }
+        result.plans.push_back(std::move(plan));
     }
     result.statistics = statistics_;
     return result;
@@ -286,7 +294,7 @@ SearchResult TopPlans::trace(LabelId goal) {
     }
     std::reverse(steps.begin(), steps.end());
     SearchResult result;
-    trace_steps(problem_, prices_, progression_, steps, result);
+    trace_steps(problem_, prices_, progression_, steps, limits_, result);
     return result;
 }
 

@@ -33,6 +33,9 @@ ENDINGS = (LimitReached, MemoryError, KeyboardInterrupt)
 MOST_MB = 2**63 / 1e6
 """More memory than any machine can name; a limit beyond it is none."""
 
+SECONDS_TO_READ = 1.0
+"""A plan that is found right before the time is over is given that long to be read: enough for some 100 000 tasks."""
+
 SECONDS_BETWEEN_LOOKS = 0.05
 """At the limits, while a library computes that knows of none."""
 
@@ -77,10 +80,15 @@ class Limits:
             None if megabytes is None or megabytes >= MOST_MB else megabytes,
         )
 
-    def with_grace(self, seconds: float) -> Limits:
-        """Return limits that leave at least so many seconds from now on, and a twentieth of the memory."""
+    def with_grace(self, seconds: float, *, is_over: bool = False) -> Limits:
+        """Return limits that leave at least so many seconds from now on, and a twentieth of the memory.
+
+        Where the run `is_over`, because something has stopped it, they leave no more than that.
+        """
+        until = time.monotonic() + seconds
+        deadline = None if self.deadline is None else max(self.deadline, until)
         return Limits(
-            None if self.deadline is None else max(self.deadline, time.monotonic() + seconds),
+            until if is_over else deadline,
             None if self.memory_mb is None else max(self.memory_mb, resident_mb() + self.memory_mb / 20),
         )
 

@@ -15,10 +15,9 @@ from statehtn.core.top_plans import find_top_plans
 from statehtn.counted import counted
 from statehtn.effort import Meter, Statistics
 from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, validated_and_priced
-from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.limits import ENDINGS, SECONDS_TO_READ, Limits, status_of
 from statehtn.log import log
 from statehtn.model.cost.unknown import MissingNumber
-from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.result import Result
@@ -85,6 +84,7 @@ class Reached:
         statistics: the effort.
         outcome: what the search has found and proven; None where nothing.
         found: the plans, validated and priced.
+        unread: more plans were found, or a better one, that could not be put together before the run was stopped.
     """
 
     status: Status
@@ -92,6 +92,7 @@ class Reached:
     statistics: Statistics
     outcome: SearchOutcome | None = None
     found: tuple[FoundPlan, ...] = ()
+    unread: bool = False
 
     @property
     def bound(self) -> float | None:
@@ -118,7 +119,8 @@ def solutions(
 
     for reached in _run(session, settings.objective, search, limits):
         found = reached.found[0] if reached.found else None
-        result = Result(reached.status, settings, reached.statistics, reached.stopped, found, reached.bound)
+        how = reached.status, settings, reached.statistics, reached.stopped, reached.unread
+        result = Result(*how, found, reached.bound)
         _tell(result)
         yield result
 
@@ -151,7 +153,10 @@ def solve_top(
     bound = reached.bound
     if plans and bound is not None:  # equal to the last plan's, rounding aside
         bound = min(bound, plans[-1].risk_cost)
-    result = TopPlans(reached.status, settings, reached.statistics, reached.stopped, plans, is_all, bound)
+    elif reached.unread:
+        bound = None
+    how = reached.status, settings, reached.statistics, reached.stopped, reached.unread
+    result = TopPlans(*how, plans, is_all, bound)
     found, seconds = counted(len(plans), "plan"), reached.statistics.search_seconds or 0.0
     log.info("search: %s, %d proven, %.3f s", found, proven, seconds)
     return result
@@ -189,7 +194,7 @@ def _phases(
     priced = session.price(objective, limits, meter)
     problem = session.read(limits, meter)
     outcomes = search(priced)
-    best: Plan | None = None
+    traces: Sequence[object] = []
     found: tuple[FoundPlan, ...] = ()
     unpriced: MissingNumber | None = None
     while True:
@@ -198,38 +203,51 @@ def _phases(
         if outcome is None:
             break
         meter.note(search=outcome.effort)
-        if outcome.plan is not best:  # the last outcome mostly has the plan of the one before
+        unread: Status | None = None
+        if outcome.plans.results != traces:  # the last outcome mostly has the plan of the one before
             try:
                 with meter.timed("validate"):
-                    found = _validated(problem, outcome.plans, objective, limits)
+                    read, unread = _validated(problem, outcome, objective, limits)
             except MissingNumber as error:
                 unpriced = error  # a better plan may do without the number
                 continue
-            best, unpriced = outcome.plan, None
-        unchecked = found[-1].unchecked if found else None
-        status = outcome.status if unchecked is None else Status.SOLVED
-        yield Reached(status, outcome.stopped or unchecked, meter.read(), outcome, found)
+            traces, unpriced = outcome.plans.results, None
+            found = read or found
+        stop = unread or (found[-1].unchecked if found else None)
+        status = outcome.status if stop is None else Status.SOLVED if found else stop
+        is_unread = outcome.unread or unread is not None
+        yield Reached(status, outcome.stopped or stop, meter.read(), outcome, found, is_unread)
+        if unread is not None:
+            break
     if unpriced is not None:
         raise unpriced
 
 
-def _validated(problem: Problem, plans: Sequence[Plan], objective: Utility, limits: Limits) -> tuple[FoundPlan, ...]:
-    """Validate and price plans; once something has ended that, the others come as the search has them.
+def _validated(
+    problem: Problem, outcome: SearchOutcome, objective: Utility, limits: Limits
+) -> tuple[tuple[FoundPlan, ...], Status | None]:
+    """Put plans together, validate and price them; return them, and what ended that before all were put together.
+
+    Once something has ended validation, the others come as the search has them.
 
     Raises:
         InternalError: a plan is wrong.
         MissingNumber: a cost needs a number that `:init` does not give.
     """
-    left = limits.with_grace(SECONDS_TO_VALIDATE)
+    is_over = outcome.stopped is not None
+    left = limits.with_grace(SECONDS_TO_VALIDATE, is_over=is_over)
     found: list[FoundPlan] = []
     stopped: Status | None = None
-    for plan in plans:
-        if stopped is None:
-            found.append(validated_and_priced(problem, plan, objective, left))
-            stopped = found[-1].unchecked
-        else:
-            found.append(not_validated(plan, objective, stopped))
-    return tuple(found)
+    try:
+        for plan in outcome.plans.read(limits.with_grace(SECONDS_TO_READ, is_over=is_over)):
+            if stopped is None:
+                found.append(validated_and_priced(problem, plan, objective, left))
+                stopped = found[-1].unchecked
+            else:
+                found.append(not_validated(plan, objective, stopped))
+    except ENDINGS as ending:
+        return tuple(found), status_of(ending)
+    return tuple(found), None
 
 
 def _last_alone(outcomes: Iterable[SearchOutcome]) -> Iterator[SearchOutcome]:

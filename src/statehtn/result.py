@@ -26,12 +26,15 @@ class RunResult(Generic[S]):
         settings: what was asked for.
         statistics: the effort.
         stopped: what ended it before it was done, with or without a plan; None for nothing.
+        unread: whether a plan was found, better than what is there, that has too many tasks to be put together before
+            that; of a search for several plans: whether there are more of them.
     """
 
     status: Status
     settings: S
     statistics: Statistics = field(default_factory=Statistics)
     stopped: Status | None = None
+    unread: bool = False
 
     @property
     def utility(self) -> Utility:
@@ -154,6 +157,7 @@ class Result(RunResult[Settings]):
             "lower_bound": self.lower_bound,
             "validated": None if self.found is None else self.validated,
             "stopped": None if self.stopped is None else self.stopped.value,
+            "unread": self.unread,
             "statistics": self.statistics.to_dict(),
         }
 

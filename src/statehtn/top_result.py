@@ -103,6 +103,7 @@ class TopPlans(RunResult[TopSettings], Sequence[RankedPlan]):
             "proven": self.proven,
             "all": self.is_all,
             "lower_bound": self.lower_bound,
+            "unread": self.unread,
             "statistics": self.statistics.to_dict(),
         }
 

@@ -47,6 +47,7 @@ KEYS = [
     "lower_bound",
     "validated",
     "stopped",
+    "unread",
     "statistics",
 ]
 UNSOLVABLE = PROBLEM.replace("(away)", "(home)")

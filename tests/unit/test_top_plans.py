@@ -20,7 +20,7 @@ from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM, UNSOLVABLE
 
 KEYS = [
     *("status", "stopped", "k", "distinct", "problem_class", "heuristic", "attitude", "alpha"),
-    *("plans", "proven", "all", "lower_bound", "statistics"),
+    *("plans", "proven", "all", "lower_bound", "unread", "statistics"),
 ]
 PLAN_KEYS = [
     *("rank", "proven", "validated", "plan", "length", "expected_cost", "risk_cost"),

@@ -42,8 +42,13 @@ class TracedPlans(Sequence[Plan]):
             return TracedPlans(self.reader, self.results[index])
         return self.reader.read(self.results[index])
 
-    def __iter__(self) -> Iterator[Plan]:
-        return map(self.reader.read, self.results)
+    def read(self, limits: Limits) -> Iterator[Plan]:
+        """Yield the plans.
+
+        Raises:
+            LimitReached: a limit was reached before the next one was read.
+        """
+        return (self.reader.read(result, limits) for result in self.results)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,15 +64,17 @@ class SearchOutcome:
         effort: of all its stages together.
         proven: of a search for several plans: the first so many of them are the best there are.
         is_all: of such a search: there are no other plans.
+        unread: a plan was found, or a better one, that could not be put together before the search was stopped.
     """
 
     status: Status
     stopped: Status | None
-    plans: Sequence[Plan]
+    plans: TracedPlans
     lower_bound: float | None
     effort: SearchEffort
     proven: int = 0
     is_all: bool = False
+    unread: bool = False
 
     @property
     def plan(self) -> Plan | None:
@@ -94,6 +101,7 @@ class SearchRun(ABC, Generic[P, S]):
         self.bound: float | None = None  # of the risk cost of plans, whatever the scale it was proven on
         self.stopped: Status | None = None
         self.effort = SearchEffort()
+        self.unread = False
 
     @property
     def watch(self) -> Callable[[S], None] | None:

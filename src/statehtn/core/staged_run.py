@@ -106,7 +106,7 @@ class StagedRun(SearchRun[Progress, _relax.SearchStatistics]):
             status = Status.OPTIMAL if self.proves() else Status.SOLVED
             bound = None if bound is None else min(bound, self.best.cost)
         plans = TracedPlans(self.reader, [] if self.best is None else [self.best.trace])
-        return SearchOutcome(status, self.stopped, plans, bound, self.effort)
+        return SearchOutcome(status, self.stopped, plans, bound, self.effort, unread=self.unread)
 
     def progress_of(
         self, statistics: _relax.SearchStatistics, seconds: float, effort: SearchEffort, bound: float | None
@@ -129,3 +129,5 @@ class StagedRun(SearchRun[Progress, _relax.SearchStatistics]):
             found = self.problem.of_plan(result)
             if self.best is None or found.cost < self.best.cost:
                 self.best = found
+        elif result.statistics.best is not None:
+            self.unread = True

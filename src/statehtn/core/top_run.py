@@ -58,6 +58,7 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
             self.watch,
         )
         self.take(result.statistics, result.stop)
+        self.unread = len(result.plans) < result.statistics.found
         self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)
         for trace in result.plans:
             plan = self.problem.of_plan(trace)
@@ -87,7 +88,7 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
         else:
             status = self.stopped or Status.UNSOLVABLE
         plans = TracedPlans(self.reader, [plan.trace for plan in self.plans])
-        return SearchOutcome(status, self.stopped, plans, bound, self.effort, self.proven, is_all)
+        return SearchOutcome(status, self.stopped, plans, bound, self.effort, self.proven, is_all, self.unread)
 
     def progress_of(
         self, statistics: _relax.TopPlansStatistics, seconds: float, effort: SearchEffort, bound: float | None

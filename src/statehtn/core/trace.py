@@ -5,6 +5,7 @@ A long plan repeats few ground actions and methods: what is the same wherever on
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass
 from itertools import islice
 from operator import itemgetter
@@ -14,6 +15,7 @@ import statehtn._relax as _relax
 from statehtn.collector import without_collector
 from statehtn.core.grounding import Grounding
 from statehtn.core.schemes import Scheme
+from statehtn.limits import Limits
 from statehtn.model import CostLaw, CostSum, Decomposition, Plan, Step
 
 
@@ -24,6 +26,8 @@ class _Part:
     bindings: dict[str, str]
     children: list[tuple[int, int | Decomposition]]
 
+
+UNITS = 1024  # of work between two looks at the limits: some hundredths of a second
 
 Child = int | Decomposition | _Part
 Placed = list[tuple[int, int | Decomposition]]
@@ -136,56 +140,61 @@ class TraceReader:
         self._steps: dict[int, Step | None] = {}  # by ground action; None for precondition actions
         self._laws: dict[tuple[int, ...], CostLaw] = {}
         self._methods: dict[int, _GroundMethod] = {}
-        self._latest: tuple[_relax.SearchResult, Plan] | None = None
 
-    def read(self, result: _relax.SearchResult) -> Plan:
+    def read(self, result: _relax.SearchResult, limits: Limits = Limits()) -> Plan:
         """Return the plan of a search result, with the costs that the search has seen; the result must have one.
 
         Precondition actions vanish, a choice between cases of an action becomes the action, and methods that were split
-        or applied at once stand as in the domain. The plan of a result is read once as long as no other is asked for.
-        """
-        if self._latest is None or self._latest[0] is not result:
-            self._latest = result, self._read(result)
-        return self._latest[1]
+        or applied at once stand as in the domain.
 
-    def _read(self, result: _relax.SearchResult) -> Plan:
-        nodes, due = result.decomposition, iter(result.due_parts)
+        Raises:
+            LimitReached: a limit was reached before that.
+        """
+        due = iter(result.due_parts)
         steps: list[Step] = []
         costs: list[CostLaw] = []
         step_of: dict[int, int] = {}  # by tree node
-        for number, count in zip(result.plan, result.due_part_counts, strict=True):
-            action = nodes[number].task
+        for leaf, (number, count) in enumerate(zip(result.plan, result.due_part_counts, strict=True)):
+            if leaf % UNITS == 0:
+                limits.check()
+            action = result.node(number).task
             step = self._step(action)
             if step is not None:
                 step_of[number] = len(steps)
                 steps.append(step)
                 costs.append(self._law(action, tuple(islice(due, count))))
         with without_collector():
-            bindings, children = self._decomposition(nodes, step_of)
+            bindings, children = self._decomposition(result, step_of, limits)
         root = tuple(bindings[parameter.name] for parameter in self._grounding.problem.parameters)
         return Plan(tuple(steps), in_order(children), root, tuple(costs))
 
     def _decomposition(
-        self, nodes: list[_relax.DecompositionNode], step_of: dict[int, int]
+        self, result: _relax.SearchResult, step_of: dict[int, int], limits: Limits
     ) -> tuple[dict[str, str], Placed]:
         """Return what the initial network's variables are bound to, and what becomes of its tasks."""
-        below: list[list[tuple[int, Child]]] = [[] for _ in nodes]  # with the subtask's index
+        below: defaultdict[int, list[tuple[int, Child]]] = defaultdict(list)  # by tree node, with subtasks' indexes
+        work = 0
         # Children come after their parents, so that going backwards every node's children are complete.
-        for number in range(len(nodes) - 1, 0, -1):
-            node = nodes[number]
+        for number in range(result.node_count - 1, 0, -1):
+            node = result.node(number)
             parent = node.parent
             assert parent is not None
+            siblings = below[parent]
             if node.method is None:
                 if number in step_of:
-                    below[parent].append((node.subtask, step_of[number]))
+                    siblings.append((node.subtask, step_of[number]))
                 continue
             method = self._method(node.method)
+            children = below.pop(number, [])
+            work += 1 + len(method.schemes)
+            if work >= UNITS:
+                limits.check()
+                work = 0
             if method.schemes:
-                below[parent].append((node.subtask, method.finished(below[number])))
+                siblings.append((node.subtask, method.finished(children)))
             else:  # a choice; nothing is left of it where the chosen case is a precondition action
-                below[parent] += ((node.subtask, child) for _, child in below[number])
-            below[number] = []
-        initial = nodes[0].method
+                siblings += ((node.subtask, child) for _, child in children)
+        initial = result.node(0).method
         assert initial is not None
         return self._method(initial).apply(below[0])
 

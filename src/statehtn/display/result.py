@@ -14,6 +14,7 @@ from statehtn.display.words import (
     FAILURE,
     STOPS,
     STYLES,
+    UNREAD,
     Labelled,
     agent,
     effort_rows,
@@ -110,7 +111,9 @@ def _at_least(bound: float) -> str:
 def _summary_rows(result: Result) -> Labelled:
     found = result.plan is not None
     why = f" ({STOPS[result.stopped]})" if found and result.stopped is not None else ""
-    rows = [("status", ENDINGS[result.status] + why)]
+    rows = [("status", (STOPS if result.unread and not found else ENDINGS)[result.status] + why)]
+    if result.unread:
+        rows.append(("found", f"a {'better ' if found else ''}plan, {UNREAD}"))
     if found and not result.validated:
         rows.append(("validated", NOT_VALIDATED))
     if found:

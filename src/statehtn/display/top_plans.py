@@ -14,6 +14,7 @@ from statehtn.display.words import (
     FAILURE,
     STOPS,
     STYLES,
+    UNREAD,
     Labelled,
     agent,
     effort_rows,
@@ -133,6 +134,8 @@ def _proven_rows(result: TopPlans) -> Labelled:
     others = f"has a certainty equivalent below {number(result.lower_bound)}"
     up_to_order = "" if result.distinct == "sequence" else ", but for these with their actions in another order"
     if not result.plans:
+        if result.unread:
+            return [("status", STOPS[result.status]), ("found", f"plans, {UNREAD}")]
         rows = [("status", ENDINGS[result.status])]
         if result.status is Status.UNSOLVABLE or result.lower_bound is None:
             return rows
@@ -148,6 +151,8 @@ def _proven_rows(result: TopPlans) -> Labelled:
     else:
         wanted = "a plan was" if result.k == 1 else f"{result.k} plans were"
         rows = [("status", f"{STOPS[result.stopped]} before {wanted} found and proven to be the best")]
+        if result.unread:
+            rows.append(("found", f"more plans, {UNREAD}"))
     if result.proven:
         which = "these are" if result.proven == len(result) else f"the first {result.proven} are"
         rows.append(("proven", "the first is the best" if result.proven == 1 else f"{which} the best"))

@@ -25,6 +25,7 @@ STOPS = {
     Status.MEMORY_LIMIT: "memory limit reached",
     Status.INTERRUPTED: "interrupted",
 }
+UNREAD = "but too many tasks to put together before the run ended"
 SUCCESS, FAILURE = "bold green", "bold red"
 STYLES = {Status.OPTIMAL: SUCCESS, Status.SOLVED: "bold yellow"}
 """How endings are shown; others are failures."""

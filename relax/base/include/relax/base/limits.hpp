@@ -44,16 +44,20 @@ public:
         }
     }
 
-    // While one lives, nothing stops: for putting together what is known after a limit was reached.
-    class Suspension {
+    // While one lives, there is a little more time, and memory, to put together what was found before a limit was
+    // reached, or the user wanted to stop. A second Ctrl-C ends that, too.
+    class Grace {
     public:
-        explicit Suspension(Limits& limits) : limits_(limits) { ++limits_.suspensions_; }
-        ~Suspension() { --limits_.suspensions_; }
-        Suspension(const Suspension&) = delete;
-        Suspension& operator=(const Suspension&) = delete;
+        explicit Grace(Limits& limits);
+        ~Grace();
+        Grace(const Grace&) = delete;
+        Grace& operator=(const Grace&) = delete;
 
     private:
         Limits& limits_;
+        std::optional<Clock::time_point> deadline_;
+        std::optional<std::size_t> memory_bytes_;
+        std::optional<StopReason> reason_;
     };
 
 private:
@@ -63,7 +67,6 @@ private:
 
     std::optional<StopReason> reason_;
     std::uint32_t calls_ = kCallsUntilClock;
-    std::uint32_t suspensions_ = 0;
     Clock::time_point last_look_{};
     Clock::time_point last_poll_{};
 };
