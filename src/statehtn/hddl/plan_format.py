@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from statehtn.collector import without_collector
 from statehtn.expected import expect
 from statehtn.hddl.plan_lines import Lines, read_lines
-from statehtn.hddl.plan_matching import Child, ChildrenMatcher, topological_order
+from statehtn.hddl.plan_matching import Child, ChildrenMatcher
 from statehtn.model.expect import expect_plan, expect_problem
 from statehtn.model.plan import Decomposition, Plan, Step
 from statehtn.model.problem import Problem
@@ -45,11 +45,11 @@ def write_plan(plan: Plan, problem: Problem) -> str:
         return [str(child) if isinstance(child, int) else numbers[id(child)] for child in found]
 
     lines = ["==>", *(f"{number} {texts[step]}" for number, step in enumerate(plan.steps))]
-    lines.append(" ".join(("root", *listed(plan.roots, topological_order(problem.network)))))
+    lines.append(" ".join(("root", *listed(plan.roots, problem.network.topological_order()))))
     for node in nodes:
         if node.method not in orders:
             method = problem.domain.methods.get(node.method)
-            orders[node.method] = topological_order(method.network) if method else []
+            orders[node.method] = method.network.topological_order() if method else []
         subtasks = listed(node.children, orders[node.method])
         lines.append(" ".join((numbers[id(node)], node.task, *node.arguments, "->", node.method, *subtasks)))
     return "\n".join([*lines, "<==", ""])

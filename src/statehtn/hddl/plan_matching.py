@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from graphlib import TopologicalSorter
 
 from statehtn.model.formula import is_variable
 from statehtn.model.plan import Decomposition
@@ -38,8 +37,8 @@ class ChildrenMatcher:
     def __init__(self, network: TaskNetwork, terms: tuple[str, ...] = ()) -> None:
         self._network = network
         self._terms = terms
-        self._order = topological_order(network)
-        self._predecessors = _predecessors(network)
+        self._order = network.topological_order()
+        self._predecessors = network.predecessors()
 
     def match(self, children: Sequence[Child], objects: tuple[str, ...] = ()) -> Sequence[Child]:
         """Return the children in the order of the subtasks; `objects` are what the terms are bound to."""
@@ -73,18 +72,6 @@ class ChildrenMatcher:
                 return False
             ends[index] = start if child.last is None else max(start, child.last + 1)
         return True
-
-
-def topological_order(network: TaskNetwork) -> list[int]:
-    """Return the indices of the subtasks in an order that the network allows."""
-    return list(TopologicalSorter(dict(enumerate(_predecessors(network)))).static_order())
-
-
-def _predecessors(network: TaskNetwork) -> list[list[int]]:
-    found: list[list[int]] = [[] for _ in network.subtasks]
-    for before, after in network.ordering:
-        found[after].append(before)
-    return found
 
 
 def _candidates(

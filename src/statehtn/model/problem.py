@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from graphlib import TopologicalSorter
 
 from statehtn.model.cost.blocks import CostBlock, FunctionValues
 from statehtn.model.formula import TRUE, Atom, Formula
@@ -65,6 +66,17 @@ class TaskNetwork:
     subtasks: tuple[Subtask, ...] = ()
     ordering: tuple[tuple[int, int], ...] = ()
     constraints: Formula = TRUE
+
+    def predecessors(self) -> list[list[int]]:
+        """Return for each subtask those that are ordered before it."""
+        found: list[list[int]] = [[] for _ in self.subtasks]
+        for before, after in self.ordering:
+            found[after].append(before)
+        return found
+
+    def topological_order(self) -> list[int]:
+        """Return the subtasks in an order that the network allows."""
+        return list(TopologicalSorter(dict(enumerate(self.predecessors()))).static_order())
 
 
 @dataclass(frozen=True, slots=True)

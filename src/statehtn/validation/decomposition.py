@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from graphlib import TopologicalSorter
 
 from statehtn.counted import counted
 from statehtn.model.formula import TRUE, And, Formula
@@ -38,10 +37,8 @@ class LiftedNetwork:
         self.subtasks = network.subtasks
         self.constraints = Condition(network.constraints, world)
         self.precondition = None if precondition == TRUE else Condition(And((network.constraints, precondition)), world)
-        self.predecessors: list[list[int]] = [[] for _ in network.subtasks]
-        for before, after in network.ordering:
-            self.predecessors[after].append(before)
-        self.order = list(TopologicalSorter(dict(enumerate(self.predecessors))).static_order())
+        self.predecessors = network.predecessors()
+        self.order = network.topological_order()
 
 
 @dataclass(frozen=True, slots=True)
