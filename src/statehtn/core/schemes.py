@@ -8,12 +8,11 @@ that have nothing to do with each other, as pandaPIparser does before it grounds
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from statehtn.model import TRUE, And, Atom, Exists, Forall, Formula, Method, Not, Or, Parameter, Problem, TaskNetwork
-from statehtn.model.formula import free_variables
+from statehtn.model import TRUE, And, Exists, Formula, Method, Parameter, Problem, TaskNetwork
+from statehtn.model.formula import conjuncts, free_variables, predicates
 
 Ordering = tuple[tuple[int, int], ...]
 
@@ -109,34 +108,13 @@ def _own_subtasks(network: TaskNetwork) -> tuple[SchemeSubtask, ...]:
     )
 
 
-def conjuncts(formula: Formula) -> Iterator[Formula]:
-    """Yield the parts of a conjunction, of nested ones too."""
-    if isinstance(formula, And):
-        for operand in formula.operands:
-            yield from conjuncts(operand)
-    else:
-        yield formula
-
-
 def _partition(formulas: Iterable[Formula], fluents: set[str]) -> tuple[list[Formula], list[Formula]]:
     """Part formulas into those that can never change and the others."""
     static: list[Formula] = []
     changing: list[Formula] = []
     for formula in formulas:
-        (static if fluents.isdisjoint(_predicates(formula)) else changing).append(formula)
+        (static if fluents.isdisjoint(predicates(formula)) else changing).append(formula)
     return static, changing
-
-
-def _predicates(formula: Formula) -> Iterator[str]:
-    match formula:
-        case Atom(predicate, _):
-            yield predicate
-        case Not(operand):
-            yield from _predicates(operand)
-        case And(operands) | Or(operands):
-            yield from itertools.chain.from_iterable(map(_predicates, operands))
-        case Exists(_, body) | Forall(_, body):
-            yield from _predicates(body)
 
 
 def _precondition_action(

@@ -19,8 +19,8 @@ from statehtn.interop.costs import expected_cost
 from statehtn.interop.names import Vocabulary, vocabulary_of
 from statehtn.interop.write_formulas import Things, Writer, plain
 from statehtn.interop.write_types import up_types
-from statehtn.model import Action, And, Formula, Method, Parameter, Problem, TaskNetwork
-from statehtn.model.formula import is_variable
+from statehtn.model import Action, Method, Parameter, Problem, TaskNetwork
+from statehtn.model.formula import conjuncts, is_variable
 
 
 def write_up_problem(problem: Problem) -> tuple[HierarchicalProblem, Vocabulary]:
@@ -51,7 +51,7 @@ def write_up_problem(problem: Problem) -> tuple[HierarchicalProblem, Vocabulary]
         variables = [up.task_network.add_variable(plain(p.name), things.type_of(p)) for p in problem.parameters]
         _fill(up.task_network, problem.network, tasks, things.scope(problem.parameters, variables))
     with _placed("the goal"):
-        for goal in _conjuncts(problem.goal):
+        for goal in conjuncts(problem.goal):
             up.add_goal(things.scope((), ()).formula(goal))
     up.add_quality_metric(_metric(problem, tasks, things))
     return up, names
@@ -103,7 +103,7 @@ def _parameters(parameters: Iterable[Parameter], things: Things) -> OrderedDict[
 def _action(name: str, action: Action, things: Things) -> InstantaneousAction:
     up = InstantaneousAction(name, _parameters(action.parameters, things))
     scope = things.scope(action.parameters, up.parameters)
-    for condition in _conjuncts(action.precondition):
+    for condition in conjuncts(action.precondition):
         up.add_precondition(scope.formula(condition))
     for effect in action.effects:
         inner, bound = scope.binding(effect.parameters)
@@ -120,7 +120,7 @@ def _method(name: str, method: Method, tasks: dict[str, Any], things: Things) ->
     scope = things.scope(method.parameters, up.parameters)
     # As one object: of a task without arguments UP would otherwise take the parameters by name.
     up.set_task(ParameterizedTask(tasks[method.task], *(scope.variables[term] for term in method.arguments)))
-    for condition in _conjuncts(method.precondition):
+    for condition in conjuncts(method.precondition):
         up.add_precondition(scope.formula(condition))
     _fill(up, method.network, tasks, scope)
     return up
@@ -134,7 +134,7 @@ def _fill(up: Any, network: TaskNetwork, tasks: dict[str, Any], scope: Writer) -
     ]
     for first, second in network.ordering:
         up.set_strictly_before(added[first], added[second])
-    for constraint in _conjuncts(network.constraints):
+    for constraint in conjuncts(network.constraints):
         up.add_constraint(scope.formula(constraint))
 
 
@@ -148,12 +148,3 @@ def _metric(problem: Problem, tasks: dict[str, Any], things: Things) -> Any:
             with _placed(f"the cost of action '{name}'"):
                 costs[tasks[name]] = things.scope(action.parameters, tasks[name].parameters).cost(cost)
     return MinimizeActionCosts(costs, default=0)
-
-
-def _conjuncts(formula: Formula) -> Iterator[Formula]:
-    """Yield the parts of a conjunction."""
-    if isinstance(formula, And):
-        for operand in formula.operands:
-            yield from _conjuncts(operand)
-    else:
-        yield formula

@@ -131,3 +131,26 @@ def free_variables(formula: Formula) -> Iterator[str]:
         case Exists(parameters, body) | Forall(parameters, body):
             bound = {parameter.name for parameter in parameters}
             yield from (name for name in free_variables(body) if name not in bound)
+
+
+def predicates(formula: Formula) -> Iterator[str]:
+    """Yield the predicates of a formula, with repetitions."""
+    match formula:
+        case Atom(predicate):
+            yield predicate
+        case Not(operand):
+            yield from predicates(operand)
+        case And(operands) | Or(operands):
+            for operand in operands:
+                yield from predicates(operand)
+        case Exists(_, body) | Forall(_, body):
+            yield from predicates(body)
+
+
+def conjuncts(formula: Formula) -> Iterator[Formula]:
+    """Yield the parts of a conjunction, of nested ones too."""
+    if isinstance(formula, And):
+        for operand in formula.operands:
+            yield from conjuncts(operand)
+    else:
+        yield formula

@@ -6,10 +6,22 @@ import itertools
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from statehtn.model.formula import And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or, free_variables
+from statehtn.model.formula import (
+    And,
+    Atom,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    Not,
+    OfType,
+    Or,
+    free_variables,
+    predicates,
+)
 from statehtn.model.problem import Fact
 from statehtn.model.types import Parameter
-from statehtn.semantics.formulas import Bindings, conjuncts, is_timeless, predicates, text
+from statehtn.semantics.formulas import Bindings, conjuncts, is_timeless, text
 from statehtn.semantics.history import History, State
 from statehtn.semantics.world import World, substitute
 

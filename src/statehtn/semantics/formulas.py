@@ -35,20 +35,6 @@ def conjuncts(formula: Formula) -> Iterator[Formula]:
             yield formula
 
 
-def predicates(formula: Formula) -> Iterator[str]:
-    """Yield the predicates of a formula, with repetitions."""
-    match formula:
-        case Atom(predicate):
-            yield predicate
-        case Not(operand):
-            yield from predicates(operand)
-        case And(operands) | Or(operands):
-            for operand in operands:
-                yield from predicates(operand)
-        case Exists(_, body) | Forall(_, body):
-            yield from predicates(body)
-
-
 def text(formula: Formula, bindings: Bindings) -> str:
     """Print a formula as in HDDL, its bound variables replaced by their objects."""
     match formula:

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from statehtn.model.formula import predicates
 from statehtn.model.plan import Plan
-from statehtn.semantics.formulas import predicates, text
+from statehtn.semantics.formulas import text
 from statehtn.semantics.history import History
 from statehtn.semantics.world import World
 from statehtn.validation.decomposition import MatchedNetwork, Matching
