@@ -44,6 +44,17 @@ def test_what_is_missing_is_found() -> None:
     assert missing(page) == ["core/gone.py", "gone.py", "statehtn.core.gone", "statehtn.gon"]
 
 
+def test_how_it_works_says_where() -> None:
+    """Names without an ending, behind a bold heading or in a table's middle column, are of pairs of files in relax/."""
+    page = (ROOT / "docs" / "how-it-works.md").read_text(encoding="utf-8")
+    places = re.findall(r"^\*\*.*?\*\* \((.*?)\)", page, re.MULTILINE) + re.findall(
+        r"^\| .*?\|(.*?)\|", page, re.MULTILINE
+    )
+    stems = [name for place in places for name in _CODE.findall(place) if "/" not in name]
+    assert len(stems) >= 30
+    assert not [stem for stem in stems if not any((ROOT / "relax").rglob(f"{stem}.*pp"))]
+
+
 def named(page: str) -> Iterator[tuple[Path, str | None]]:
     """Yield the files of a page's tables, and the names that stand behind each.
 

@@ -28,6 +28,7 @@ def lm_cut(task: RelaxedTask) -> float:
             return total
         cut = find_cut(task, values, goal)
         least = min(operator.cost for operator in cut)
+        assert least > 0  # what leads into the goal zone for free has its supporter there
         total += least
         owners = {_owner(operator) for operator in cut}
         operators = (
