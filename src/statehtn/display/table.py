@@ -37,14 +37,10 @@ class Table:
             between: stands between columns.
         """
         lines = [[column.head for column in self.columns], *self.rows, *([self.totals] if self.totals else [])]
-        cells = list(zip(*lines, strict=True))
-        widths = [max(map(_width, column)) for column in cells]
-        padded = [
-            [_padded(cell, width, column.is_number) for cell in texts]
-            for texts, width, column in zip(cells, widths, self.columns, strict=True)
-        ]
-        shown = [between.join(row).rstrip() for row in zip(*padded, strict=True)]
-        return shown, sum(widths) + len(between) * (len(widths) - 1)
+        cells = zip(*lines, strict=True)
+        padded = [_padded(texts, column.is_number) for texts, column in zip(cells, self.columns, strict=True)]
+        shown = [between.join(row) for row in zip(*padded, strict=True)]
+        return [line.rstrip() for line in shown], _width(shown[0])
 
     def to_text(self) -> str:
         """Return the table in columns of characters, with two spaces between them."""
@@ -90,6 +86,10 @@ def _width(text: str) -> int:
     return cell_len(text)
 
 
-def _padded(text: str, width: int, is_right: bool) -> str:
-    space = " " * (width - _width(text))
-    return f"{space}{text}" if is_right else f"{text}{space}"
+def _padded(texts: Sequence[str], is_right: bool) -> list[str]:
+    """Return texts with spaces before or after them, as wide as the widest."""
+    widths = list(map(_width, texts))
+    widest = max(widths)
+    spaces = [" " * (widest - width) for width in widths]
+    parts = (spaces, texts) if is_right else (texts, spaces)
+    return list(map("".join, zip(*parts, strict=True)))
