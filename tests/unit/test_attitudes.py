@@ -159,7 +159,7 @@ def test_long_stretches_are_shortened() -> None:
 
 
 def test_plans_that_tie_are_equally_good() -> None:
-    """For the averse agent the gamble is as good as its own plan, for the neutral one its plan is dearer in a digit."""
+    """The averse agent finds the gamble as good as its own plan; for the neutral one that plan costs a little more."""
     spread = 0.000447
     gamble = CostDistribution.of([(0.5, 2.5 - spread), (0.5, 2.5 + spread)])
     certain = CostDistribution.certain(2.5 + math.log(math.cosh(spread)) - 2.5e-10)
