@@ -14,10 +14,6 @@ constexpr std::uint64_t kMostWork = 40'000'000;  // in words looked at
 
 }  // namespace
 
-std::shared_ptr<const Mutexes> Mutexes::of(const GroundProblem& problem, Limits& limits) {
-    return problem.mutexes ? problem.mutexes : std::make_shared<const Mutexes>(problem, limits);
-}
-
 Mutexes::Mutexes(const GroundProblem& problem, Limits& limits) {
     number_negated(problem);
     words_ = words_for(fact_of_.size());

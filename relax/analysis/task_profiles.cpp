@@ -1,15 +1,10 @@
 #include "relax/analysis/task_profiles.hpp"
 
-#include <utility>
-
 namespace relax {
 
-const TaskProfile& TaskProfiles::operator[](TaskId task) {
-    if (!profiles_[task]) {
-        TaskProfile profile = problem_.is_primitive(task) ? of_action(task) : of_compound(task);
-        profiles_[task] = std::make_unique<const TaskProfile>(std::move(profile));
-    }
-    return *profiles_[task];
+const TaskProfile& TaskProfiles::of(TaskId task, Limits& limits) const {
+    return profiles_[task].get(
+        [&] { return problem_.is_primitive(task) ? of_action(task) : of_compound(task, limits); });
 }
 
 TaskProfile TaskProfiles::of_action(ActionId action) const {
@@ -62,17 +57,17 @@ TaskProfile TaskProfiles::of_action(ActionId action) const {
     return result;
 }
 
-TaskProfile TaskProfiles::of_compound(TaskId task) {
+TaskProfile TaskProfiles::of_compound(TaskId task, Limits& limits) const {
     TaskProfile result = TaskProfile::empty(problem_);
     std::vector<bool> is_seen(problem_.task_count(), false);
     std::vector<TaskId> pending{task};
     is_seen[task] = true;
     while (!pending.empty()) {
-        limits_.stop_if_reached();
+        limits.stop_if_reached();
         const TaskId next = pending.back();
         pending.pop_back();
-        if (problem_.is_primitive(next) || profiles_[next]) {
-            const TaskProfile& known = (*this)[next];
+        if (problem_.is_primitive(next) || profiles_[next].is_made()) {
+            const TaskProfile& known = of(next, limits);
             result.reads.insert_all(known.reads);
             result.makes.insert_all(known.makes);
             continue;

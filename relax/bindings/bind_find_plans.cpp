@@ -14,11 +14,10 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "checked_prices.hpp"
 #include "id_caster.hpp"
 #include "python_limits.hpp"
-#include "relax/analysis/cost_shifting.hpp"
-#include "relax/analysis/tdg_bound.hpp"
+#include "relax/analysis/priced_problem.hpp"
+#include "relax/base/cost.hpp"
 #include "relax/networks/ordered_tasks.hpp"
 #include "relax/networks/totally_ordered_networks.hpp"
 #include "relax/problem/state.hpp"
@@ -34,11 +33,10 @@ using Ordering = std::vector<std::pair<std::size_t, std::size_t>>;
 // A heuristic on its own, for states and networks of the caller's choice.
 class Evaluator {
 public:
-    Evaluator(const relax::GroundProblem& problem, const relax::Prices& prices, relax::HeuristicKind kind)
-        : problem_(problem),
-          bounds_(relax::tdg_bound(problem, relax::shift_costs(problem, checked(problem, prices), limits_).actions,
-                                   limits_)),
-          heuristic_(relax::make_heuristic(kind, problem, prices, limits_)) {}
+    Evaluator(const relax::PricedProblem& priced, relax::HeuristicKind kind)
+        : problem_(priced.problem),
+          bounds_(priced.task_bounds(limits_)),
+          heuristic_(relax::make_heuristic(kind, priced, limits_)) {}
 
     // `ordering`: pairs of places in `tasks`, transitively closed; none where nothing is known of the order. The
     // heuristic sees the order as in a search: in a totally ordered problem, as that of the tasks as they stand.
@@ -82,7 +80,7 @@ public:
 private:
     const relax::GroundProblem& problem_;
     relax::Limits limits_;  // none
-    std::vector<relax::Cost> bounds_;
+    const std::vector<relax::Cost>& bounds_;
     std::unique_ptr<relax::Heuristic> heuristic_;
 };
 
@@ -102,9 +100,9 @@ void check(const relax::SearchOptions& options) {
     }
 }
 
-relax::SearchResult find_plans(const relax::GroundProblem& problem, const relax::Prices& prices,
-                               const relax::SearchOptions& options, std::optional<double> seconds,
-                               std::optional<std::size_t> memory_bytes, const nb::object& progress) {
+relax::SearchResult find_plans(const relax::PricedProblem& priced, const relax::SearchOptions& options,
+                               std::optional<double> seconds, std::optional<std::size_t> memory_bytes,
+                               const nb::object& progress) {
     check(options);
     relax::SearchStatistics statistics;
     std::function<void()> watch;
@@ -113,7 +111,7 @@ relax::SearchResult find_plans(const relax::GroundProblem& problem, const relax:
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::search(problem, checked(problem, prices), options, limits, statistics);
+    return relax::search(priced, options, limits, statistics);
 }
 
 std::vector<relax::ActionId> executed_actions(const relax::SearchResult& result) {
@@ -150,11 +148,6 @@ void bind_find_plans(nb::module_& module) {
         .value("TimeLimit", relax::SearchStatus::TimeLimit)
         .value("MemoryLimit", relax::SearchStatus::MemoryLimit)
         .value("Interrupted", relax::SearchStatus::Interrupted);
-
-    nb::class_<relax::Prices>(module, "Prices")
-        .def(nb::init<std::vector<relax::Cost>, std::vector<relax::Cost>>(), "actions"_a, "parts"_a)
-        .def_ro("actions", &relax::Prices::actions)
-        .def_ro("parts", &relax::Prices::parts);
 
     nb::class_<relax::SearchOptions>(module, "SearchOptions")
         .def(nb::init<>())
@@ -210,11 +203,11 @@ void bind_find_plans(nb::module_& module) {
         .def_prop_ro("actions", &executed_actions);
 
     nb::class_<Evaluator>(module, "Evaluator")
-        .def(nb::init<const relax::GroundProblem&, const relax::Prices&, relax::HeuristicKind>(), "problem"_a,
-             "prices"_a, "kind"_a, nb::keep_alive<1, 2>())
+        .def(nb::init<const relax::PricedProblem&, relax::HeuristicKind>(), "priced"_a, "kind"_a,
+             nb::keep_alive<1, 2>())
         .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a, "ordering"_a = nb::none())
         .def_prop_ro("model_bytes", &Evaluator::model_bytes);
 
-    module.def("find_plans", &find_plans, "problem"_a, "prices"_a, "options"_a, "seconds"_a = nb::none(),
+    module.def("find_plans", &find_plans, "priced"_a, "options"_a, "seconds"_a = nb::none(),
                "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
 }

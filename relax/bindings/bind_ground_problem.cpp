@@ -2,9 +2,11 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -15,6 +17,7 @@
 #include "bindings.hpp"
 #include "id_caster.hpp"
 #include "python_limits.hpp"
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/analysis/mutexes.hpp"
 #include "relax/grounding/grounder.hpp"
 #include "relax/networks/totally_ordered_networks.hpp"
@@ -22,13 +25,14 @@
 
 namespace nb = nanobind;
 using namespace nb::literals;
+using relax::AnalysedProblem;
 using relax::GroundProblem;
 
 namespace {
 
 // Expose a row of a table as a list.
 template <auto Table>
-auto row(const GroundProblem& problem, std::size_t index) {
+auto row(const AnalysedProblem& problem, std::size_t index) {
     const auto& rows = problem.*Table;
     if (index >= rows.size()) {
         throw std::out_of_range("index out of range");
@@ -39,7 +43,7 @@ auto row(const GroundProblem& problem, std::size_t index) {
 
 // Expose what an owner has of a table of shares as where it begins and ends.
 template <auto Table>
-std::pair<std::uint32_t, std::uint32_t> share(const GroundProblem& problem, std::size_t owner) {
+std::pair<std::uint32_t, std::uint32_t> share(const AnalysedProblem& problem, std::size_t owner) {
     const auto& shares = problem.*Table;
     if (owner >= shares.size()) {
         throw std::out_of_range("index out of range");
@@ -47,19 +51,19 @@ std::pair<std::uint32_t, std::uint32_t> share(const GroundProblem& problem, std:
     return shares.bounds(owner);
 }
 
-using GroundingResult =
-    std::variant<GroundProblem, relax::StopReason, std::tuple<std::uint32_t, std::vector<relax::ObjectId>>>;
+using GroundingResult = std::variant<std::unique_ptr<AnalysedProblem>, relax::StopReason,
+                                     std::tuple<std::uint32_t, std::vector<relax::ObjectId>>>;
 
 // Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases.
 GroundingResult ground(const relax::LiftedProblem& problem, bool merge_equal, bool replace_single_methods,
                        bool ask_mutexes, std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
     relax::Limits limits = python_limits(seconds, memory_bytes);
-    std::variant<GroundProblem, relax::StopReason, relax::TooManyCasesOf> result;
+    std::variant<std::unique_ptr<AnalysedProblem>, relax::StopReason, relax::TooManyCasesOf> result;
     {
         const nb::gil_scoped_release no_gil;
         result = relax::ground(problem, {merge_equal, replace_single_methods, ask_mutexes}, limits);
     }
-    if (auto* ground = std::get_if<GroundProblem>(&result)) {
+    if (auto* ground = std::get_if<std::unique_ptr<AnalysedProblem>>(&result)) {
         return std::move(*ground);
     }
     if (const auto* reason = std::get_if<relax::StopReason>(&result)) {
@@ -77,13 +81,14 @@ void bind_ground_problem(nb::module_& module) {
         .value("MemoryLimit", relax::StopReason::MemoryLimit)
         .value("Interrupted", relax::StopReason::Interrupted);
 
-    nb::class_<GroundProblem>(module, "GroundProblem")
+    nb::class_<AnalysedProblem>(module, "GroundProblem")
         .def_prop_ro("fact_count", &GroundProblem::fact_count)
         .def_prop_ro("action_count", &GroundProblem::action_count)
         .def_prop_ro("cost_part_count", &GroundProblem::cost_part_count)
         .def_prop_ro("compound_count", &GroundProblem::compound_count)
         .def_prop_ro("method_count", &GroundProblem::method_count)
-        .def_prop_ro("is_totally_ordered", &relax::TotallyOrderedNetworks::fits)
+        .def_prop_ro("is_totally_ordered",
+                     [](const AnalysedProblem& problem) { return relax::TotallyOrderedNetworks::fits(problem); })
         .def_ro("fact_predicate", &GroundProblem::fact_predicate)
         .def_ro("action_schema", &GroundProblem::action_schema)
         .def_ro("compound_schema", &GroundProblem::compound_schema)
@@ -91,10 +96,12 @@ void bind_ground_problem(nb::module_& module) {
         .def_ro("initial_task", &GroundProblem::initial_task)
         .def_ro("solvable", &GroundProblem::solvable)
         .def("method_task",
-             [](const GroundProblem& problem, std::size_t method) { return problem.method_task.at(method); })
+             [](const AnalysedProblem& problem, std::size_t method) { return problem.method_task.at(method); })
         .def("method_parts", &share<&GroundProblem::method_parts>)
-        .def("part_schema", [](const GroundProblem& problem, std::size_t part) { return problem.part_schema.at(part); })
-        .def("part_origin", [](const GroundProblem& problem, std::size_t part) { return problem.part_origin.at(part); })
+        .def("part_schema",
+             [](const AnalysedProblem& problem, std::size_t part) { return problem.part_schema.at(part); })
+        .def("part_origin",
+             [](const AnalysedProblem& problem, std::size_t part) { return problem.part_origin.at(part); })
         .def("effects", &share<&GroundProblem::effects>)
         .def("fact_arguments", &row<&GroundProblem::fact_arguments>)
         .def("preconditions", &row<&GroundProblem::preconditions>)
@@ -119,7 +126,7 @@ void bind_ground_problem(nb::module_& module) {
     nb::class_<relax::Mutexes>(module, "Mutexes")
         .def(
             "__init__",
-            [](relax::Mutexes* self, const GroundProblem& problem) {
+            [](relax::Mutexes* self, const AnalysedProblem& problem) {
                 relax::Limits limits;  // none
                 new (self) relax::Mutexes(problem, limits);
             },

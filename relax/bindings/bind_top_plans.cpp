@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "checked_prices.hpp"
 #include "id_caster.hpp"
 #include "python_limits.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/search/top_plans.hpp"
 
 namespace nb = nanobind;
@@ -19,11 +19,10 @@ using namespace nb::literals;
 
 namespace {
 
-relax::TopPlansResult top_plans(const relax::GroundProblem& problem, const relax::Prices& prices,
-                                std::vector<std::optional<relax::ActionName>> names,
+relax::TopPlansResult top_plans(const relax::PricedProblem& priced, std::vector<std::optional<relax::ActionName>> names,
                                 const relax::TopPlansOptions& options, std::optional<double> seconds,
                                 std::optional<std::size_t> memory_bytes, const nb::object& progress) {
-    if (names.size() != problem.action_count()) {
+    if (names.size() != priced.problem.action_count()) {
         throw std::invalid_argument("there must be one name, or none, for each action");
     }
     if (!relax::is_admissible(options.search.heuristic)) {
@@ -36,7 +35,7 @@ relax::TopPlansResult top_plans(const relax::GroundProblem& problem, const relax
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::top_plans(problem, checked(problem, prices), std::move(names), options, limits, statistics);
+    return relax::top_plans(priced, std::move(names), options, limits, statistics);
 }
 
 }  // namespace
@@ -63,6 +62,6 @@ void bind_top_plans(nb::module_& module) {
         .def_ro("statistics", &relax::TopPlansResult::statistics)
         .def_ro("plans", &relax::TopPlansResult::plans);
 
-    module.def("top_plans", &top_plans, "problem"_a, "prices"_a, "names"_a, "options"_a, "seconds"_a = nb::none(),
+    module.def("top_plans", &top_plans, "priced"_a, "names"_a, "options"_a, "seconds"_a = nb::none(),
                "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
 }

@@ -4,6 +4,7 @@ NB_MODULE(_relax, module) {
     module.doc() = "The compiled core of statehtn: grounding, heuristics and search.";
     bind_lifted_problem(module);
     bind_ground_problem(module);
+    bind_priced_problem(module);
     bind_find_plans(module);
     bind_top_plans(module);
 }

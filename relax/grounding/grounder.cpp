@@ -44,7 +44,8 @@ Demand first_demand(Knowledge& knowledge, Limits& limits) {
     }
 }
 
-GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& options, Limits& limits) {
+std::unique_ptr<AnalysedProblem> ground_or_throw(Knowledge& knowledge, const GroundingOptions& options,
+                                                 Limits& limits) {
     const LiftedProblem& lifted = knowledge.problem;
     Demand coarse = first_demand(knowledge, limits);
     add_pair_relations(knowledge, coarse);
@@ -53,7 +54,7 @@ GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& opti
     add_pair_relations(knowledge, demand);
     reach_tasks(knowledge, demand, limits);
     if (knowledge.relations[knowledge.task_relation(lifted.initial_task)].size() == 0) {
-        return unsolvable();
+        return std::make_unique<AnalysedProblem>(unsolvable());
     }
     TaskGraph graph = expand_methods(knowledge, demand, limits);
     const Expander expander(knowledge, limits);
@@ -61,20 +62,22 @@ GroundProblem ground_or_throw(Knowledge& knowledge, const GroundingOptions& opti
     const std::vector<bool> is_initially_true = initial_truth(expander, lifted.predicate_count);
     const std::vector<bool> is_literal_reached = prune(graph, cases, is_initially_true, limits);
     if (!graph.is_node_alive[graph.initial]) {
-        return unsolvable();
+        return std::make_unique<AnalysedProblem>(unsolvable());
     }
     GroundProblem problem = assemble(
         {knowledge, graph, cases, expander.fact_begin(), is_initially_true, is_literal_reached, options, limits});
-    if (options.ask_mutexes) {
-        problem = without_impossible(std::move(problem), limits);
+    if (!options.ask_mutexes) {
+        return std::make_unique<AnalysedProblem>(std::move(problem));
     }
-    return problem.solvable ? std::move(problem) : unsolvable();
+    auto analysed = without_impossible(std::move(problem), limits);
+    return analysed->solvable ? std::move(analysed) : std::make_unique<AnalysedProblem>(unsolvable());
 }
 
 }  // namespace
 
-std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
-                                                               const GroundingOptions& options, Limits& limits) {
+std::variant<std::unique_ptr<AnalysedProblem>, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
+                                                                                  const GroundingOptions& options,
+                                                                                  Limits& limits) {
     Knowledge knowledge(problem);
     try {
         return ground_or_throw(knowledge, options, limits);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <ranges>
 #include <utility>
 #include <vector>
@@ -115,7 +114,6 @@ public:
         copy_.fact_predicate = old_.fact_predicate;
         copy_.fact_arguments = old_.fact_arguments;
         copy_.initial_state = old_.initial_state;
-        copy_.mutexes = old_.mutexes;
         copy_actions();
         copy_compounds();
         copy_methods();
@@ -208,15 +206,16 @@ private:
 
 }  // namespace
 
-GroundProblem without_impossible(GroundProblem problem, Limits& limits) {
-    const auto mutexes = std::make_shared<const Mutexes>(problem, limits);
-    problem.mutexes = mutexes;
-    if (std::ranges::all_of(problem.actions(), [&](ActionId action) { return mutexes->is_possible(action); })) {
-        return problem;
+std::unique_ptr<AnalysedProblem> without_impossible(GroundProblem problem, Limits& limits) {
+    auto mutexes = std::make_unique<const Mutexes>(problem, limits);
+    if (!std::ranges::all_of(problem.actions(), [&](ActionId action) { return mutexes->is_possible(action); })) {
+        const Living living(problem, *mutexes, limits);
+        problem.solvable = living.is_alive(problem.initial_task);
+        if (problem.solvable) {
+            problem = Copy(problem, living, limits).run();
+        }
     }
-    const Living living(problem, *mutexes, limits);
-    problem.solvable = living.is_alive(problem.initial_task);
-    return problem.solvable ? Copy(problem, living, limits).run() : std::move(problem);
+    return std::make_unique<AnalysedProblem>(std::move(problem), std::move(mutexes));
 }
 
 }  // namespace relax::grounding

@@ -1,8 +1,10 @@
 #ifndef RELAX_GROUNDING_IMPOSSIBLE_HPP
 #define RELAX_GROUNDING_IMPOSSIBLE_HPP
 
+#include <memory>
+
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/base/limits.hpp"
-#include "relax/problem/ground_problem.hpp"
 
 namespace relax::grounding {
 
@@ -10,7 +12,7 @@ namespace relax::grounding {
 // tasks without a decomposition into what is left, and what the initial task does not lead to. No plan is lost: it
 // executes all of its actions, each in a state that can be reached, and all of its tasks are decomposed. Where the
 // initial task goes, the result is not solvable, and nothing else of it means anything. Throws Stopped.
-GroundProblem without_impossible(GroundProblem problem, Limits& limits);
+std::unique_ptr<AnalysedProblem> without_impossible(GroundProblem problem, Limits& limits);
 
 }  // namespace relax::grounding
 

@@ -1,9 +1,6 @@
 #include "relax/heuristics/heuristic.hpp"
 
-#include <vector>
-
-#include "relax/analysis/cost_shifting.hpp"
-#include "relax/analysis/tdg_bound.hpp"
+#include "relax/base/cost.hpp"
 #include "relax/heuristics/compute_rc_ad_heur.hpp"
 #include "relax/heuristics/hmax.hpp"
 #include "relax/heuristics/lm_cut.hpp"
@@ -39,16 +36,11 @@ private:
     HMax hmax_;
 };
 
-// A heuristic for what a plan costs beyond the network's bounds, in the decomposition model. Every method costs its
-// slack, the sum of its subtasks' bounds less its task's, and of an action only the cost parts cost something: a plan
-// costs the sum of the network's bounds, of the slacks of the methods it uses and of the cost parts that are due.
+// The network's bound, and a heuristic for what a plan costs beyond it, in the decomposition model.
 template <typename ClassicalHeuristic>
 class Slack final : public Heuristic {
 public:
-    Slack(const GroundProblem& problem, const Prices& prices, Limits& limits)
-        : slack_(RelaxedModel::decomposition(problem, slacks(problem, tdg_bound(problem, prices.actions, limits)),
-                                             prices.parts, limits),
-                 limits) {}
+    Slack(const RelaxedModel& model, Limits& limits) : slack_(model, limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         const auto slack = slack_.evaluate(node);
@@ -60,18 +52,6 @@ public:
     std::size_t model_bytes() const override { return slack_.model_bytes(); }
 
 private:
-    static std::vector<Cost> slacks(const GroundProblem& problem, const std::vector<Cost>& bounds) {
-        std::vector<Cost> slacks;
-        for (const MethodId method : problem.methods()) {
-            Cost sum = 0;
-            for (const TaskId subtask : problem.method_subtasks[method]) {
-                sum = add_bounds(sum, bounds[subtask]);
-            }
-            slacks.push_back(sum - bounds[problem.method_task[method]]);
-        }
-        return slacks;
-    }
-
     RcHeuristic<ClassicalHeuristic> slack_;
 };
 
@@ -96,27 +76,24 @@ public:
 
 }  // namespace
 
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, const Prices& true_prices,
-                                          Limits& limits) {
-    const Prices prices = shift_costs(problem, true_prices, limits);
+std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const PricedProblem& priced, Limits& limits) {
     switch (kind) {
         case HeuristicKind::Blind:
             return std::make_unique<Blind>();
         case HeuristicKind::Tdg:
             return std::make_unique<TdgBound>();
         case HeuristicKind::HMax:
-            return std::make_unique<RcHeuristic<PricedHMax>>(RelaxedModel::composition(problem, prices, limits),
-                                                             limits);
+            return std::make_unique<RcHeuristic<PricedHMax>>(priced.composition_model(limits), limits);
         case HeuristicKind::LmCut:
-            return std::make_unique<RcHeuristic<LmCut>>(RelaxedModel::composition(problem, prices, limits), limits);
+            return std::make_unique<RcHeuristic<LmCut>>(priced.composition_model(limits), limits);
         case HeuristicKind::Potential:
-            return std::make_unique<Slack<LmCut>>(problem, prices, limits);
+            return std::make_unique<Slack<LmCut>>(priced.decomposition_model(limits), limits);
         case HeuristicKind::PotentialHMax:
-            return std::make_unique<Slack<PricedHMax>>(problem, prices, limits);
+            return std::make_unique<Slack<PricedHMax>>(priced.decomposition_model(limits), limits);
         case HeuristicKind::Add:
-            return std::make_unique<RcHeuristic<Additive>>(RelaxedModel::composition(problem, prices, limits), limits);
+            return std::make_unique<RcHeuristic<Additive>>(priced.composition_model(limits), limits);
         case HeuristicKind::Ff:
-            return std::make_unique<RcHeuristic<Ff>>(RelaxedModel::composition(problem, prices, limits), limits);
+            return std::make_unique<RcHeuristic<Ff>>(priced.composition_model(limits), limits);
     }
     return nullptr;
 }

@@ -18,8 +18,8 @@ void put(std::vector<Literal>& sorted, Literal literal) {
 
 }  // namespace
 
-MacroActions::MacroActions(const GroundProblem& problem, Limits& limits)
-    : problem_(problem), mutexes_(Mutexes::of(problem, limits)) {
+MacroActions::MacroActions(const AnalysedProblem& problem, Limits& limits)
+    : problem_(problem), mutexes_(problem.mutexes(limits)) {
     intern({});
 }
 
@@ -99,7 +99,7 @@ MacroId MacroActions::compose(ActionId action, MacroId rest) {
 }
 
 // Whether the two never hold together.
-bool MacroActions::contradicts(Literal one, Literal other) const { return mutexes_->are_mutex(one, other); }
+bool MacroActions::contradicts(Literal one, Literal other) const { return mutexes_.are_mutex(one, other); }
 
 MacroId MacroActions::intern(Macro macro) {
     const std::uint64_t hash_of_it = hash(macro);

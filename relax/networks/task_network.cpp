@@ -7,7 +7,7 @@
 
 namespace relax {
 
-std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+std::unique_ptr<TaskNetworks> make_task_networks(const AnalysedProblem& problem, std::vector<Cost> task_bounds,
                                                  bool use_macros, bool in_sequence, Limits& limits) {
     if (in_sequence || TotallyOrderedNetworks::fits(problem)) {
         return std::make_unique<TotallyOrderedNetworks>(problem, std::move(task_bounds), use_macros, limits);

@@ -1,7 +1,5 @@
 #include "relax/networks/totally_ordered_networks.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <utility>
 
 #include "relax/analysis/tdg_bound.hpp"
@@ -14,44 +12,9 @@ std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_
 
 }  // namespace
 
-std::vector<std::uint32_t> sequence_of(const GroundProblem& problem, MethodId method) {
-    const auto ordering = problem.method_ordering[method];  // sorted pairs
-    const std::size_t count = problem.method_subtasks[method].size();
-    std::vector<std::uint32_t> before(count, 0);
-    for (const auto& [earlier, later] : ordering) {
-        ++before[later];
-    }
-    // Of those that may come next, the first in the domain: a heap.
-    std::vector<std::uint32_t> open;
-    for (std::uint32_t subtask = 0; subtask < count; ++subtask) {
-        if (before[subtask] == 0) {
-            open.push_back(subtask);
-        }
-    }
-    std::vector<std::uint32_t> sequence;
-    while (!open.empty()) {
-        std::ranges::pop_heap(open, std::greater<>());
-        const std::uint32_t next = open.back();
-        open.pop_back();
-        sequence.push_back(next);
-        for (const auto& [earlier, later] :
-             std::ranges::equal_range(ordering, next, {}, [](const auto& pair) { return pair.first; })) {
-            if (--before[later] == 0) {
-                open.push_back(later);
-                std::ranges::push_heap(open, std::greater<>());
-            }
-        }
-    }
-    return sequence;
-}
-
-TotallyOrderedNetworks::TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+TotallyOrderedNetworks::TotallyOrderedNetworks(const AnalysedProblem& problem, std::vector<Cost> task_bounds,
                                                bool use_macros, Limits& limits)
-    : problem_(problem), task_bounds_(std::move(task_bounds)) {
-    for (const MethodId method : problem.methods()) {
-        limits.stop_if_reached();
-        sequence_.add_row(sequence_of(problem, method));
-    }
+    : problem_(problem), task_bounds_(std::move(task_bounds)), sequences_(problem.sequences(limits)) {
     if (use_macros) {
         macros_.emplace(problem, limits);
     }
@@ -111,7 +74,7 @@ NetworkId TotallyOrderedNetworks::decompose(NetworkId network, std::uint32_t ind
     for (; earlier_.size() < index; network = cells_[network].rest) {
         earlier_.push_back(cells_[network].first);
     }
-    const auto sequence = sequence_[method];
+    const auto sequence = sequences_[method];
     const auto subtasks = problem_.method_subtasks[method];
     NetworkId result = cells_[network].rest;
     for (std::size_t place = sequence.size(); place-- > 0;) {

@@ -2,13 +2,10 @@
 
 namespace relax {
 
-OpenPreconditions::OpenPreconditions(const GroundProblem& problem, Limits& limits)
-    : limits_(limits), initial_state_(StateTransition(problem).initial_state()), profiles_(problem, limits) {}
-
 bool OpenPreconditions::can_be_met(const OrderedTasks& network) {
     occurring_.clear();
     for (const TaskId task : network.tasks) {
-        occurring_.push_back(&profiles_[task]);
+        occurring_.push_back(&problem_.profile(task, limits_));
     }
     turn_round(network, successors_);
     for (std::size_t task = 0; task < network.tasks.size(); ++task) {

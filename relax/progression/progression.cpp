@@ -5,18 +5,18 @@
 #include <utility>
 
 #include "relax/base/cost.hpp"
-#include "relax/networks/totally_ordered_networks.hpp"
 
 namespace relax {
 
 namespace {
 
-std::optional<ActionId> first_action(const GroundProblem& problem, MethodId method, bool in_sequence) {
+std::optional<ActionId> first_action(const AnalysedProblem& problem, MethodId method, bool in_sequence,
+                                     Limits& limits) {
     const auto subtasks = problem.method_subtasks[method];
     const auto ordering = problem.method_ordering[method];
     std::size_t first = 0;  // if there is only one subtask
     if (in_sequence && subtasks.size() > 1) {
-        first = sequence_of(problem, method).front();
+        first = problem.sequences(limits)[method].front();
     } else if (subtasks.size() > 1) {
         // The pairs are sorted: look for a run that has all the others.
         std::size_t run = 0;
@@ -34,7 +34,7 @@ std::optional<ActionId> first_action(const GroundProblem& problem, MethodId meth
 
 }  // namespace
 
-Progression::Progression(const GroundProblem& problem, Prices prices, std::vector<Cost> task_bounds,
+Progression::Progression(const AnalysedProblem& problem, Prices prices, std::vector<Cost> task_bounds,
                          const ProgressionOptions& options, Limits& limits)
     : problem_(problem),
       prices_(std::move(prices)),
@@ -56,7 +56,7 @@ Progression::Progression(const GroundProblem& problem, Prices prices, std::vecto
     if (options.skip_dead_methods) {
         for (const MethodId method : problem.methods()) {
             limits.stop_if_reached();
-            first_action_.push_back(first_action(problem, method, options.in_sequence));
+            first_action_.push_back(first_action(problem, method, options.in_sequence, limits));
         }
     }
 }

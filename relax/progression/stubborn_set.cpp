@@ -14,7 +14,7 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
     work_ += network.tasks.size() + network.predecessors.size();
     occurring_.clear();
     for (const TaskId task : network.tasks) {
-        occurring_.push_back(&profiles_[task]);
+        occurring_.push_back(&problem_.profile(task, limits_));
     }
     is_open_.assign(network.words, 0);
     is_applicable_.assign(network.words, 0);

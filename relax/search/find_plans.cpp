@@ -5,7 +5,6 @@
 #include <ranges>
 #include <utility>
 
-#include "relax/analysis/cost_shifting.hpp"
 #include "relax/analysis/tdg_bound.hpp"
 #include "relax/search/plan_trace.hpp"
 
@@ -25,23 +24,22 @@ ProgressionOptions progression_options(const SearchOptions& options) {
 
 }  // namespace
 
-FindPlans::FindPlans(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+FindPlans::FindPlans(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                      SearchStatistics& statistics)
-    : problem_(problem),
-      prices_(std::move(prices)),
+    : priced_(priced),
+      problem_(priced.problem),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, prices_, tdg_bound(problem, shift_costs(problem, prices_, limits).actions, limits),
-                   progression_options(options), limits),
+      progression_(priced.problem, priced.prices, priced.task_bounds(limits), progression_options(options), limits),
       nodes_(progression_.networks()) {
     if (options.endings && !progression_.networks().are_totally_ordered()) {
-        ending_.emplace(problem, limits);
+        ending_.emplace(problem_, limits);
     }
     const bool asks_always = !options.selective;
-    heuristics_.emplace_back(make_heuristic(options.heuristic, problem, prices_, limits), asks_always);
+    heuristics_.emplace_back(make_heuristic(options.heuristic, priced, limits), asks_always);
     for (const HeuristicKind kind : options.more_heuristics) {
-        heuristics_.emplace_back(make_heuristic(kind, problem, prices_, limits), asks_always);
+        heuristics_.emplace_back(make_heuristic(kind, priced, limits), asks_always);
     }
 }
 
@@ -94,7 +92,7 @@ SearchResult FindPlans::result() {
     const Cost bound = goal_ ? std::min(proven(), *statistics_.best) : proven();
     result.stop = stop_;
     if (goal_) {
-        trace_plan(problem_, prices_, progression_, nodes_, *goal_, limits_, result);
+        trace_plan(priced_, progression_, nodes_, *goal_, limits_, result);
     }
     if (result.cost) {
         statistics_.best = result.cost;

@@ -5,7 +5,6 @@
 #include <new>
 #include <utility>
 
-#include "relax/analysis/cost_shifting.hpp"
 #include "relax/analysis/tdg_bound.hpp"
 #include "relax/search/plan_trace.hpp"
 
@@ -21,16 +20,15 @@ constexpr std::uint64_t kWorkOfANode = 200;      // in operators that a heuristi
 
 }  // namespace
 
-GreedySearch::GreedySearch(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+GreedySearch::GreedySearch(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                            SearchStatistics& statistics)
-    : problem_(problem),
-      prices_(std::move(prices)),
+    : priced_(priced),
+      problem_(priced.problem),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, prices_, tdg_bound(problem, shift_costs(problem, prices_, limits).actions, limits), options,
-                   limits),
-      heuristic_(make_heuristic(options.heuristic, problem, prices_, limits)),
+      progression_(priced.problem, priced.prices, priced.task_bounds(limits), options, limits),
+      heuristic_(make_heuristic(options.heuristic, priced, limits)),
       nodes_(progression_.networks()),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
 
@@ -65,7 +63,7 @@ SearchResult GreedySearch::result() {
     result.stop = stop_;
     statistics_.lower_bound = proven_;
     if (goal_) {
-        trace_plan(problem_, prices_, progression_, nodes_, *goal_, limits_, result);
+        trace_plan(priced_, progression_, nodes_, *goal_, limits_, result);
     }
     if (result.cost) {
         statistics_.best = result.cost;

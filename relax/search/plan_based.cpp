@@ -4,7 +4,6 @@
 #include <new>
 #include <utility>
 
-#include "relax/analysis/cost_shifting.hpp"
 #include "relax/analysis/tdg_bound.hpp"
 #include "relax/search/plan_trace.hpp"
 
@@ -24,10 +23,10 @@ std::vector<bool> find_choices(const GroundProblem& problem) {
 }
 
 // By TaskId: what a task adds to f; of a compound one nothing where the heuristic is blind.
-std::vector<Cost> make_bounds(const GroundProblem& problem, std::span<const Cost> costs,
-                              const std::vector<bool>& is_choice, HeuristicKind heuristic, Limits& limits) {
-    std::vector<Cost> bounds = tdg_bound(problem, costs, limits);
-    for (const TaskId task : problem.compounds()) {
+std::vector<Cost> make_bounds(const PricedProblem& priced, const std::vector<bool>& is_choice, HeuristicKind heuristic,
+                              Limits& limits) {
+    std::vector<Cost> bounds = priced.task_bounds(limits);
+    for (const TaskId task : priced.problem.compounds()) {
         if (heuristic == HeuristicKind::Blind && !is_choice[task]) {
             bounds[task] = 0;
         }
@@ -37,19 +36,18 @@ std::vector<Cost> make_bounds(const GroundProblem& problem, std::span<const Cost
 
 }  // namespace
 
-PlanBased::PlanBased(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+PlanBased::PlanBased(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                      SearchStatistics& statistics)
-    : problem_(problem),
-      prices_(std::move(prices)),
+    : priced_(priced),
+      problem_(priced.problem),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      is_choice_(find_choices(problem)),
-      task_bounds_(
-          make_bounds(problem, shift_costs(problem, prices_, limits).actions, is_choice_, options.heuristic, limits)),
-      progression_(problem, prices_, task_bounds_, options, limits),
+      is_choice_(find_choices(priced.problem)),
+      task_bounds_(make_bounds(priced, is_choice_, options.heuristic, limits)),
+      progression_(priced.problem, priced.prices, task_bounds_, options, limits),
       linearisation_(progression_, limits),
-      open_preconditions_(problem, limits) {}
+      open_preconditions_(priced.problem, limits) {}
 
 SearchResult PlanBased::run() {
     SearchResult result;
@@ -197,7 +195,7 @@ void PlanBased::trace(SearchResult& result) {
     }
     std::reverse(steps.begin(), steps.end());
     steps.insert(steps.end(), solution_->order.begin(), solution_->order.end());
-    trace_steps(problem_, prices_, progression_, steps, limits_, result);
+    trace_steps(priced_, progression_, steps, limits_, result);
 }
 
 }  // namespace relax

@@ -10,21 +10,23 @@
 
 namespace relax {
 
-void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression, const SearchSpace& nodes,
-                NodeId goal, Limits& limits, SearchResult& result) {
+void trace_plan(const PricedProblem& priced, Progression& progression, const SearchSpace& nodes, NodeId goal,
+                Limits& limits, SearchResult& result) {
     std::vector<SearchStep> steps;
     for (NodeId id = goal; nodes[id].parent != id; id = nodes[id].parent) {
         steps.push_back(nodes[id].step());
     }
     std::reverse(steps.begin(), steps.end());
-    trace_steps(problem, prices, progression, steps, limits, result);
+    trace_steps(priced, progression, steps, limits, result);
 }
 
 namespace {
 
 // Walk the steps once more and keep track of which task of the decomposition tree each occurrence is. Throws Stopped.
-void walk(const GroundProblem& problem, const Prices& prices, Progression& progression,
-          std::span<const SearchStep> steps, Limits& limits, SearchResult& result) {
+void walk(const PricedProblem& priced, Progression& progression, std::span<const SearchStep> steps, Limits& limits,
+          SearchResult& result) {
+    const GroundProblem& problem = priced.problem;
+    const Prices& prices = priced.prices;
     TaskNetworks& networks = progression.networks();
     NetworkId network = progression.initial_network();
     const StateTransition transition(problem);
@@ -74,11 +76,11 @@ void walk(const GroundProblem& problem, const Prices& prices, Progression& progr
 
 }  // namespace
 
-void trace_steps(const GroundProblem& problem, const Prices& prices, Progression& progression,
-                 std::span<const SearchStep> steps, Limits& limits, SearchResult& result) {
+void trace_steps(const PricedProblem& priced, Progression& progression, std::span<const SearchStep> steps,
+                 Limits& limits, SearchResult& result) {
     std::optional<StopReason> stop = result.stop;  // of the search, which comes first
     try {
-        walk(problem, prices, progression, steps, limits, result);
+        walk(priced, progression, steps, limits, result);
         return;
     } catch (const Stopped& stopped) {
         stop = stop ? stop : stopped.reason;

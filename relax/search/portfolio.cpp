@@ -23,14 +23,10 @@ bool has_model(HeuristicKind kind) { return kind != HeuristicKind::Blind && kind
 
 }  // namespace
 
-Portfolio::Portfolio(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+Portfolio::Portfolio(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                      SearchStatistics& statistics)
-    : problem_(problem),
-      prices_(std::move(prices)),
-      limits_(limits),
-      statistics_(statistics),
-      upper_bound_(options.upper_bound) {
-    const std::uint64_t model = kPreparation * (problem.action_count() + problem.method_count());
+    : priced_(priced), limits_(limits), statistics_(statistics), upper_bound_(options.upper_bound) {
+    const std::uint64_t model = kPreparation * (priced.problem.action_count() + priced.problem.method_count());
     for (const std::vector<SearchOptions>& stages : options.members) {
         std::uint64_t models = has_model(stages.front().heuristic) ? 1 : 0;
         models += static_cast<std::uint64_t>(std::ranges::count_if(stages.front().more_heuristics, has_model));
@@ -112,9 +108,9 @@ bool Portfolio::begin_stage(Member& member) {
     SearchStatistics& statistics = member.statistics.emplace_back();
     try {
         if (member.is_greedy()) {
-            member.search = std::make_unique<GreedySearch>(problem_, prices_, options, limits_, statistics);
+            member.search = std::make_unique<GreedySearch>(priced_, options, limits_, statistics);
         } else {
-            member.search = std::make_unique<FindPlans>(problem_, prices_, options, limits_, statistics);
+            member.search = std::make_unique<FindPlans>(priced_, options, limits_, statistics);
         }
     } catch (const Stopped& stopped) {
         stop_ = stopped.reason;

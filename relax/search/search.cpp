@@ -18,18 +18,18 @@ SearchResult finish(StepwiseSearch&& search) {
     return search.result();
 }
 
-SearchResult search_or_throw(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+SearchResult search_or_throw(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                              SearchStatistics& statistics) {
     if (options.algorithm == SearchAlgorithm::Greedy) {
-        return finish(GreedySearch(problem, std::move(prices), options, limits, statistics));
+        return finish(GreedySearch(priced, options, limits, statistics));
     }
     if (options.algorithm == SearchAlgorithm::PlanBased) {
-        return PlanBased(problem, std::move(prices), options, limits, statistics).run();
+        return PlanBased(priced, options, limits, statistics).run();
     }
     if (options.algorithm == SearchAlgorithm::Portfolio) {
-        return Portfolio(problem, std::move(prices), options, limits, statistics).run();
+        return Portfolio(priced, options, limits, statistics).run();
     }
-    return finish(FindPlans(problem, std::move(prices), options, limits, statistics));
+    return finish(FindPlans(priced, options, limits, statistics));
 }
 
 // The end of a search that a limit stopped while it was being prepared.
@@ -43,10 +43,10 @@ SearchResult stopped_early(StopReason reason, const SearchStatistics& statistics
 
 }  // namespace
 
-SearchResult search(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+SearchResult search(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                     SearchStatistics& statistics) {
     try {
-        return search_or_throw(problem, std::move(prices), options, limits, statistics);
+        return search_or_throw(priced, options, limits, statistics);
     } catch (const Stopped& stopped) {
         return stopped_early(stopped.reason, statistics);
     } catch (const std::bad_alloc&) {

@@ -4,7 +4,6 @@
 #include <new>
 #include <utility>
 
-#include "relax/analysis/cost_shifting.hpp"
 #include "relax/analysis/tdg_bound.hpp"
 #include "relax/search/plan_trace.hpp"
 
@@ -31,27 +30,26 @@ ProgressionOptions allowed(const TopPlansOptions& options) {
 
 }  // namespace
 
-TopPlans::TopPlans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionName>> names,
+TopPlans::TopPlans(const PricedProblem& priced, std::vector<std::optional<ActionName>> names,
                    const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics)
-    : problem_(problem),
-      prices_(std::move(prices)),
+    : priced_(priced),
+      problem_(priced.problem),
       names_(std::move(names)),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, prices_, tdg_bound(problem, shift_costs(problem, prices_, limits).actions, limits),
-                   allowed(options), limits),
-      heuristic_(make_heuristic(options.search.heuristic, problem, prices_, limits)) {
+      progression_(priced.problem, priced.prices, priced.task_bounds(limits), allowed(options), limits),
+      heuristic_(make_heuristic(options.search.heuristic, priced, limits)) {
     if (options_.distinct == Distinct::Sequence) {
         progression_.execute_at_once_only(without_name(names_));
     }
 }
 
-TopPlansResult top_plans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionName>> names,
+TopPlansResult top_plans(const PricedProblem& priced, std::vector<std::optional<ActionName>> names,
                          const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics) {
     TopPlansResult stopped_early;
     try {
-        return TopPlans(problem, std::move(prices), std::move(names), options, limits, statistics).run();
+        return TopPlans(priced, std::move(names), options, limits, statistics).run();
     } catch (const Stopped& stopped) {
         stopped_early.stop = stopped.reason;
     } catch (const std::bad_alloc&) {
@@ -294,7 +292,7 @@ SearchResult TopPlans::trace(LabelId goal) {
     }
     std::reverse(steps.begin(), steps.end());
     SearchResult result;
-    trace_steps(problem_, prices_, progression_, steps, limits_, result);
+    trace_steps(priced_, progression_, steps, limits_, result);
     return result;
 }
 

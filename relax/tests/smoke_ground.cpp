@@ -68,19 +68,20 @@ relax::LiftedProblem line(std::uint32_t places) {
 bool solve(std::uint32_t places) {
     relax::Limits limits;
     const auto grounded = relax::ground(line(places), {}, limits);
-    const auto* problem = std::get_if<relax::GroundProblem>(&grounded);
-    if (problem == nullptr || !problem->solvable) {
+    const auto* found = std::get_if<std::unique_ptr<relax::AnalysedProblem>>(&grounded);
+    if (found == nullptr || !(*found)->solvable) {
         return false;
     }
+    const relax::AnalysedProblem& problem = **found;
     relax::Prices prices;
-    for (const relax::ActionId action : problem->actions()) {
-        const std::uint32_t schema = problem->action_schema[action];
-        const relax::Cost dark = problem->action_cost_blocks[action].empty() ? 0 : 10;
+    for (const relax::ActionId action : problem.actions()) {
+        const std::uint32_t schema = problem.action_schema[action];
+        const relax::Cost dark = problem.action_cost_blocks[action].empty() ? 0 : 10;
         prices.actions.push_back(schema == 0 ? 1 + dark : schema == 1 ? 2 : 0);
     }
-    prices.parts.assign(problem->cost_part_count(), 10);
+    prices.parts.assign(problem.cost_part_count(), 10);
     relax::SearchStatistics statistics;
-    const auto result = relax::search(*problem, prices, {}, limits, statistics);
+    const auto result = relax::search(relax::PricedProblem(problem, prices), {}, limits, statistics);
     return result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{2} + (places - 1);
 }
 

@@ -102,7 +102,7 @@ std::optional<relax::MacroId> macro_of(relax::MacroActions& macros, const std::v
 }  // namespace
 
 int main() {
-    const relax::GroundProblem problem = make_problem();
+    const relax::AnalysedProblem problem(make_problem());
     relax::Limits limits;
     relax::MacroActions macros(problem, limits);
     const auto direct = macro_of(macros, {drive(0, 2)});

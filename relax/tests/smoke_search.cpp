@@ -94,14 +94,15 @@ relax::GroundProblem make_problem(bool ordered) {
 }
 
 bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm algorithm) {
-    const relax::GroundProblem problem = make_problem(ordered);
+    const relax::AnalysedProblem problem(make_problem(ordered));
+    const relax::PricedProblem priced(problem, {{3, 5, 4}, {}});
     relax::SearchOptions options;
     options.heuristic = heuristic;
     options.algorithm = algorithm;
     options.weight = 2.0;
     relax::Limits limits;
     relax::SearchStatistics statistics;
-    const relax::SearchResult result = relax::search(problem, {{3, 5, 4}, {}}, options, limits, statistics);
+    const relax::SearchResult result = relax::search(priced, options, limits, statistics);
     const bool optimal = result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{15};
     const bool is_exact = algorithm == relax::SearchAlgorithm::AStar || algorithm == relax::SearchAlgorithm::PlanBased;
     const bool solved = !is_exact && result.cost && *result.cost >= 15;
@@ -115,13 +116,14 @@ bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm 
 
 // The four best plans; every action is its own label.
 bool solve_for_several(bool ordered, relax::Distinct distinct, const std::vector<relax::Cost>& expected) {
-    const relax::GroundProblem problem = make_problem(ordered);
+    const relax::AnalysedProblem problem(make_problem(ordered));
+    const relax::PricedProblem priced(problem, {{3, 5, 4}, {}});
     relax::TopPlansOptions options;
     options.count = 4;
     options.distinct = distinct;
     relax::Limits limits;
     relax::TopPlansStatistics statistics;
-    relax::TopPlans search(problem, {{3, 5, 4}, {}}, {0, 1, 2}, options, limits, statistics);
+    relax::TopPlans search(priced, {0, 1, 2}, options, limits, statistics);
     const relax::TopPlansResult result = search.run();
     std::vector<relax::Cost> costs;
     for (const relax::SearchResult& plan : result.plans) {

@@ -157,6 +157,9 @@ def ground(
     memory_bytes: int | None = None,
 ) -> GroundProblem | StopReason | tuple[int, list[int]]: ...
 
+class PricedProblem:
+    def __init__(self, problem: GroundProblem, actions: Sequence[int], parts: Sequence[int]) -> None: ...
+
 class HeuristicKind(enum.Enum):
     Blind = 0
 
@@ -199,13 +202,6 @@ class SearchStatus(enum.Enum):
     MemoryLimit = 5
 
     Interrupted = 6
-
-class Prices:
-    def __init__(self, actions: Sequence[int], parts: Sequence[int]) -> None: ...
-    @property
-    def actions(self) -> list[int]: ...
-    @property
-    def parts(self) -> list[int]: ...
 
 class SearchOptions:
     def __init__(self) -> None: ...
@@ -346,7 +342,7 @@ class SearchResult:
     def due_part_counts(self) -> list[int]: ...
 
 class Evaluator:
-    def __init__(self, problem: GroundProblem, prices: Prices, kind: HeuristicKind) -> None: ...
+    def __init__(self, priced: PricedProblem, kind: HeuristicKind) -> None: ...
     def evaluate(
         self, facts: Sequence[int], tasks: Sequence[int], ordering: Sequence[tuple[int, int]] | None = None
     ) -> int | None: ...
@@ -354,8 +350,7 @@ class Evaluator:
     def model_bytes(self) -> int: ...
 
 def find_plans(
-    problem: GroundProblem,
-    prices: Prices,
+    priced: PricedProblem,
     options: SearchOptions,
     seconds: float | None = None,
     memory_bytes: int | None = None,
@@ -403,8 +398,7 @@ class TopPlansResult:
     def plans(self) -> list[SearchResult]: ...
 
 def top_plans(
-    problem: GroundProblem,
-    prices: Prices,
+    priced: PricedProblem,
     names: Sequence[int | None],
     options: TopPlansOptions,
     seconds: float | None = None,

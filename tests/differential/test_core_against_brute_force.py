@@ -138,7 +138,7 @@ def test_methods_that_wait_until_they_are_due_keep_a_plan(problem: Problem, expl
     options.heuristic = _relax.HeuristicKind.Ff
     options.explores = explores
     options.when_due = True
-    prices = _relax.Prices([1] * len(handle.action_schema), [1] * handle.cost_part_count)
-    result = _relax.find_plans(handle, prices, options, seconds=SECONDS)
+    priced = _relax.PricedProblem(handle, [1] * len(handle.action_schema), [1] * handle.cost_part_count)
+    result = _relax.find_plans(priced, options, seconds=SECONDS)
     assume(result.status is not _relax.SearchStatus.TimeLimit)
     assert (result.cost is None) == (brute_force(problem, utility_for("neutral")) is None)

@@ -105,7 +105,7 @@ class HeuristicEvaluator:
     def __init__(self, grounding: Grounding, utility: Utility, heuristic: str) -> None:
         problem = price(grounding, utility)
         self._scale = Scale.first(problem.bounds())
-        self._evaluator = _relax.Evaluator(grounding.handle, problem.on(self._scale).units, HEURISTICS[heuristic].kind)
+        self._evaluator = _relax.Evaluator(problem.on(self._scale).handle, HEURISTICS[heuristic].kind)
 
     @property
     def model_bytes(self) -> int:

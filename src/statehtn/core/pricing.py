@@ -64,16 +64,13 @@ class Prices:
     parts: list[int]
     has_free: bool
     """Whether a price that is positive is 0 on this scale."""
+    handle: _relax.PricedProblem
+    """The ground problem at these prices in the core."""
 
     def of_plan(self, plan: PricedTrace) -> int:
         """Return what a plan costs in units."""
         actions, parts = self.actions, self.parts
         return sum(actions[action] for action in plan.actions) + sum(parts[part] for part in plan.parts)
-
-    @property
-    def units(self) -> _relax.Prices:
-        """The prices as the core takes them."""
-        return _relax.Prices(self.actions, self.parts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +89,8 @@ class PricedProblem:
         """Return all prices on a scale, rounded down from their lower bounds."""
         actions, parts = (scale.units(price.bound for price in prices) for prices in (self.actions, self.parts))
         has_free = any(not units and bound for units, bound in zip(chain(actions, parts), self.bounds(), strict=True))
-        return Prices(scale, actions, parts, has_free)
+        handle = _relax.PricedProblem(self.grounding.handle, actions, parts)
+        return Prices(scale, actions, parts, has_free, handle)
 
     def of_plan(self, trace: _relax.SearchResult) -> PricedTrace:
         """Return what a plan costs: the sum of its own prices, rounded once."""

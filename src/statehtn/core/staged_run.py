@@ -66,9 +66,7 @@ class StagedRun(SearchRun[Progress, _relax.SearchStatistics]):
         """Run one stage; returns whether it was the last one that can make a difference on this scale."""
         while True:
             options.upper_bound = self.wanted()
-            result = _relax.find_plans(
-                self.problem.grounding.handle, self.prices.units, options, *self.limits.left(), self.watch
-            )
+            result = _relax.find_plans(self.prices.handle, options, *self.limits.left(), self.watch)
             self._take(result, options.upper_bound)
             if result.statistics.lower_bound != MOST_UNITS or self.stopped is not None or self.best is not None:
                 break

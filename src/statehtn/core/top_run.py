@@ -49,14 +49,7 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
 
     def search(self) -> None:
         """Search on the present scale."""
-        result = _relax.top_plans(
-            self.problem.grounding.handle,
-            self.prices.units,
-            self.action_names,
-            self.options,
-            *self.limits.left(),
-            self.watch,
-        )
+        result = _relax.top_plans(self.prices.handle, self.action_names, self.options, *self.limits.left(), self.watch)
         self.take(result.statistics, result.stop)
         self.unread = len(result.plans) < result.statistics.found
         self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,9 +26,6 @@ class Mutexes {
 public:
     // On large problems nothing is found, since it would take too long. Throws Stopped.
     Mutexes(const GroundProblem& problem, Limits& limits);
-
-    // The problem's, or new ones where it has none.
-    static std::shared_ptr<const Mutexes> of(const GroundProblem& problem, Limits& limits);
 
     bool are_mutex(Literal one, Literal other) const;
     // Whether the action may be executed in some state; true where that is not known.

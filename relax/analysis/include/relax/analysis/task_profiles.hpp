@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "relax/base/bits.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
+#include "relax/base/on_demand.hpp"
 #include "relax/problem/ground_problem.hpp"
 #include "relax/problem/literal.hpp"
 
@@ -24,11 +24,7 @@ public:
     void insert(Literal literal) { set_bit(words_, literal); }
     void erase(Literal literal) { clear_bit(words_, literal); }
     void clear() { std::ranges::fill(words_, 0); }
-    void insert_all(const Literals& others) {
-        for (std::size_t word = 0; word < words_.size(); ++word) {
-            words_[word] |= others.words_[word];
-        }
-    }
+    void insert_all(const Literals& others) { unite(words_, others.words_); }
 
 private:
     std::vector<std::uint64_t> words_;
@@ -54,22 +50,20 @@ struct TaskProfile {
     }
 };
 
-// The profiles of tasks, each made when it is first asked for.
+// The profiles of tasks, each made when it is first asked for, also by several threads.
 class TaskProfiles {
 public:
-    TaskProfiles(const GroundProblem& problem, Limits& limits)
-        : problem_(problem), limits_(limits), profiles_(problem.task_count()) {}
+    explicit TaskProfiles(const GroundProblem& problem) : problem_(problem), profiles_(problem.task_count()) {}
 
     // Throws Stopped.
-    const TaskProfile& operator[](TaskId task);
+    const TaskProfile& of(TaskId task, Limits& limits) const;
 
 private:
     TaskProfile of_action(ActionId action) const;
-    TaskProfile of_compound(TaskId task);
+    TaskProfile of_compound(TaskId task, Limits& limits) const;
 
     const GroundProblem& problem_;
-    Limits& limits_;
-    std::vector<std::unique_ptr<const TaskProfile>> profiles_;  // by TaskId
+    std::vector<OnDemand<TaskProfile>> profiles_;  // by TaskId
 };
 
 }  // namespace relax

@@ -45,6 +45,13 @@ inline bool intersect(std::span<const std::uint64_t> left, std::span<const std::
     return false;
 }
 
+inline void unite(std::span<std::uint64_t> into, std::span<const std::uint64_t> other) {
+    assert(into.size() == other.size());
+    for (std::size_t word = 0; word < into.size(); ++word) {
+        into[word] |= other[word];
+    }
+}
+
 }  // namespace relax
 
 #endif

@@ -2,12 +2,13 @@
 #define RELAX_GROUNDING_GROUNDER_HPP
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/problem/lifted_problem.hpp"
 
 namespace relax {
@@ -30,8 +31,9 @@ struct GroundingOptions {
 
 // Instantiate what the initial task can lead to, and what can be reached, of a lifted problem. Numbering depends on the
 // problem alone.
-std::variant<GroundProblem, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
-                                                               const GroundingOptions& options, Limits& limits);
+std::variant<std::unique_ptr<AnalysedProblem>, StopReason, TooManyCasesOf> ground(const LiftedProblem& problem,
+                                                                                  const GroundingOptions& options,
+                                                                                  Limits& limits);
 
 }  // namespace relax
 

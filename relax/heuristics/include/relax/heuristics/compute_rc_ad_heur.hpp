@@ -3,10 +3,9 @@
 
 #include <cstddef>
 #include <optional>
-#include <utility>
 
+#include "relax/analysis/relaxed_model.hpp"
 #include "relax/heuristics/heuristic.hpp"
-#include "relax/heuristics/relaxed_model.hpp"
 #include "relax/heuristics/relaxed_task.hpp"
 
 namespace relax {
@@ -17,10 +16,8 @@ namespace relax {
 template <typename ClassicalHeuristic>
 class RcHeuristic final : public Heuristic {
 public:
-    RcHeuristic(RelaxedModel model, Limits& limits)
-        : model_(std::move(model)),
-          task_(model_, ClassicalHeuristic::kReadsOperators, limits),
-          classical_(model_, limits) {}
+    RcHeuristic(const RelaxedModel& model, Limits& limits)
+        : model_(model), task_(model, ClassicalHeuristic::kReadsOperators, limits), classical_(model, limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
         task_.set(node);
@@ -51,7 +48,7 @@ public:
     }
 
 private:
-    RelaxedModel model_;
+    const RelaxedModel& model_;
     RelaxedTask task_;
     ClassicalHeuristic classical_;
 };

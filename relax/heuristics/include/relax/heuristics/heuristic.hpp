@@ -6,11 +6,10 @@
 #include <memory>
 #include <optional>
 
-#include "relax/analysis/prices.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/networks/node_view.hpp"
-#include "relax/problem/ground_problem.hpp"
 
 namespace relax {
 
@@ -37,8 +36,7 @@ public:
 
 // All kinds say dead end only where it is true. When a limit is reached, an evaluation ends early
 // with a weaker estimate, or throws Stopped, as this function does.
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const GroundProblem& problem, const Prices& prices,
-                                          Limits& limits);
+std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const PricedProblem& priced, Limits& limits);
 
 }  // namespace relax
 

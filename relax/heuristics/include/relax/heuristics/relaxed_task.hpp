@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "relax/analysis/relaxed_model.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/rows.hpp"
 #include "relax/heuristics/heuristic.hpp"
-#include "relax/heuristics/relaxed_model.hpp"
 
 namespace relax {
 

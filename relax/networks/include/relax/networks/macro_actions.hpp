@@ -2,11 +2,11 @@
 #define RELAX_NETWORKS_MACRO_ACTIONS_HPP
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/analysis/mutexes.hpp"
 #include "relax/analysis/task_profiles.hpp"
 #include "relax/base/id_table.hpp"
@@ -24,7 +24,7 @@ class MacroActions {
 public:
     static constexpr MacroId kNothing = 0;  // the empty sequence, and all that need and change nothing
 
-    MacroActions(const GroundProblem& problem, Limits& limits);  // throws Stopped
+    MacroActions(const AnalysedProblem& problem, Limits& limits);  // throws Stopped
 
     // Whether an action can be part of one: neither its effects nor its cost have conditions.
     bool fits(ActionId action) const;
@@ -48,7 +48,7 @@ private:
     static std::uint64_t hash(const Macro& macro);
 
     const GroundProblem& problem_;
-    std::shared_ptr<const Mutexes> mutexes_;
+    const Mutexes& mutexes_;
     std::vector<Macro> macros_;  // by MacroId
     IdTable table_;
     std::unordered_map<std::uint64_t, MacroId> composed_;  // by the pair of action and rest

@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/networks/ordered_tasks.hpp"
-#include "relax/problem/ground_problem.hpp"
 
 namespace relax {
 
@@ -70,7 +70,7 @@ public:
 };
 
 // `task_bounds`: by TaskId, see tdg_bound. `in_sequence`: lists even where methods do not order their subtasks totally.
-std::unique_ptr<TaskNetworks> make_task_networks(const GroundProblem& problem, std::vector<Cost> task_bounds,
+std::unique_ptr<TaskNetworks> make_task_networks(const AnalysedProblem& problem, std::vector<Cost> task_bounds,
                                                  bool use_macros, bool in_sequence, Limits& limits);
 
 }  // namespace relax

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/base/id_table.hpp"
 #include "relax/base/rows.hpp"
 #include "relax/base/segmented_array.hpp"
@@ -12,16 +13,13 @@
 
 namespace relax {
 
-// The method's subtasks by index, in their order; where they have none, in that of the domain.
-std::vector<std::uint32_t> sequence_of(const GroundProblem& problem, MethodId method);
-
 // Lists of tasks: a first task and the number of the rest. Equal lists have equal numbers. Actions that stand together
 // in a list will be executed one after the other, so a list's form has a macro-action in their place.
 class TotallyOrderedNetworks final : public TaskNetworks {
 public:
     // `use_macros`: whether forms are wanted. Methods that do not order their subtasks totally are taken as if they
     // did.
-    TotallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, bool use_macros,
+    TotallyOrderedNetworks(const AnalysedProblem& problem, std::vector<Cost> task_bounds, bool use_macros,
                            Limits& limits);
 
     // Every method orders its subtasks totally.
@@ -61,7 +59,7 @@ private:
 
     const GroundProblem& problem_;
     std::vector<Cost> task_bounds_;
-    Rows<std::uint32_t> sequence_;  // by MethodId: indices of its subtasks, in their order
+    const Rows<std::uint32_t>& sequences_;
     SegmentedArray<Cell> cells_;
     IdTable table_;
     std::vector<TaskId> earlier_;

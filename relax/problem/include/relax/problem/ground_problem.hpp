@@ -11,7 +11,6 @@
 // is due, once, where a condition holds in the state before the action. Risk costs of independent parts add up.
 
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,8 +18,6 @@
 #include "relax/base/rows.hpp"
 
 namespace relax {
-
-class Mutexes;
 
 struct GroundProblem {
     // By FactId. Only facts that can change and that something reads or that the initial state holds.
@@ -76,7 +73,6 @@ struct GroundProblem {
 
     std::vector<FactId> initial_state;  // sorted
     TaskId initial_task = 0;
-    std::shared_ptr<const Mutexes> mutexes;  // none where nobody has looked for them
     bool solvable =
         true;  // false: grounding proved that the initial task cannot be accomplished; the rest is then empty
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/networks/macro_actions.hpp"
 #include "relax/networks/ordered_tasks.hpp"
@@ -15,7 +16,7 @@ namespace relax {
 // can come last. Where no order of them can be executed, the network leads nowhere, whatever its compound tasks become.
 class Ending {
 public:
-    Ending(const GroundProblem& problem, Limits& limits) : problem_(problem), macros_(problem, limits) {}
+    Ending(const AnalysedProblem& problem, Limits& limits) : problem_(problem), macros_(problem, limits) {}
 
     // False: no state that can be reached lets the network be executed. True says nothing.
     bool is_possible(const OrderedTasks& network);

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/analysis/task_profiles.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/networks/ordered_tasks.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/problem/state.hpp"
 
 namespace relax {
@@ -19,7 +19,8 @@ namespace relax {
 // again in between. (The question of causal links and their threats, as in partial-order causal-link planning.)
 class OpenPreconditions {
 public:
-    OpenPreconditions(const GroundProblem& problem, Limits& limits);
+    OpenPreconditions(const AnalysedProblem& problem, Limits& limits)
+        : problem_(problem), limits_(limits), initial_state_(StateTransition(problem).initial_state()) {}
 
     // False only if the network has no executable decomposition. Throws Stopped.
     bool can_be_met(const OrderedTasks& network);
@@ -27,9 +28,9 @@ public:
 private:
     bool can_be_met(const OrderedTasks& network, std::size_t task, Literal literal);
 
+    const AnalysedProblem& problem_;
     Limits& limits_;
     StateBits initial_state_;
-    TaskProfiles profiles_;
     std::vector<const TaskProfile*> occurring_;  // by occurrence of the network looked at
     OrderedTasks successors_;                    // the order turned round, likewise
     std::vector<std::uint64_t> threats_;         // a row of it

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/analysis/prices.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
@@ -56,7 +57,7 @@ public:
     // All that makes states or networks may throw Stopped.
     //
     // `task_bounds`: see tdg_bound.
-    Progression(const GroundProblem& problem, Prices prices, std::vector<Cost> task_bounds,
+    Progression(const AnalysedProblem& problem, Prices prices, std::vector<Cost> task_bounds,
                 const ProgressionOptions& options, Limits& limits);
 
     StateId initial_state();

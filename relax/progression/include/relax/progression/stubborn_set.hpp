@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "relax/analysis/analysed_problem.hpp"
 #include "relax/analysis/task_profiles.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/networks/ordered_tasks.hpp"
 #include "relax/networks/task_network.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/problem/state.hpp"
 
 namespace relax {
@@ -24,12 +24,8 @@ namespace relax {
 // Every task has to be executed some time; the first one of the set can then be moved to the front of any plan.
 class StubbornSet {
 public:
-    StubbornSet(const GroundProblem& problem, Limits& limits)
-        : problem_(problem),
-          limits_(limits),
-          profiles_(problem, limits),
-          transition_(problem),
-          compounds_(TaskProfile::empty(problem)) {}
+    StubbornSet(const AnalysedProblem& problem, Limits& limits)
+        : problem_(problem), limits_(limits), transition_(problem), compounds_(TaskProfile::empty(problem)) {}
 
     // Find the applicable ones of the smallest such set: where there are none, the node is a dead end. Nothing, where
     // every set has to do with an unconstrained compound task. Valid until the next call. Throws Stopped.
@@ -45,9 +41,8 @@ private:
     std::optional<std::uint32_t> open_before(const OrderedTasks& network, std::uint32_t task) const;
     void put(std::uint32_t index);
 
-    const GroundProblem& problem_;
+    const AnalysedProblem& problem_;
     Limits& limits_;
-    TaskProfiles profiles_;
     StateTransition transition_;
     // Of the network looked at.
     OrderedTasks successors_;

@@ -7,12 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "relax/analysis/prices.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
 #include "relax/heuristics/selective_heuristic.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/progression/ending.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/forced_cycle.hpp"
@@ -33,7 +32,7 @@ class FindPlans final : public StepwiseSearch {
 public:
     // The heuristics must be admissible. `statistics` is kept up to date for whoever
     // watches from `limits.poll`.
-    FindPlans(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+    FindPlans(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);  // throws Stopped
 
     // Search to the end.
@@ -72,8 +71,8 @@ private:
     void push(NodeId id);
     Cost open_bound() const;
 
-    const GroundProblem& problem_;
-    Prices prices_;
+    const PricedProblem& priced_;
+    const AnalysedProblem& problem_;
     SearchOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;

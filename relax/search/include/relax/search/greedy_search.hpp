@@ -8,11 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "relax/analysis/prices.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/heuristics/heuristic.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/forced_cycle.hpp"
 #include "relax/search/open_list.hpp"
@@ -33,7 +32,7 @@ namespace relax {
 // has a plan, it goes on for as long as that took, for a cheaper one.
 class GreedySearch final : public StepwiseSearch {
 public:
-    GreedySearch(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
+    GreedySearch(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                  SearchStatistics& statistics);
 
     bool advance(std::uint64_t work) override;
@@ -54,8 +53,8 @@ private:
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
     void push_successors(NodeId parent, Cost h);
 
-    const GroundProblem& problem_;
-    Prices prices_;
+    const PricedProblem& priced_;
+    const AnalysedProblem& problem_;
     SearchOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;

@@ -5,11 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "relax/analysis/prices.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/progression/open_preconditions.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/linearisation.hpp"
@@ -33,8 +32,7 @@ class PlanBased {
 public:
     // Of the options, it reads the heuristic (Tdg or Blind), the upper
     // bound and those that name PlanBased.
-    PlanBased(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
-              SearchStatistics& statistics);
+    PlanBased(const PricedProblem& priced, const SearchOptions& options, Limits& limits, SearchStatistics& statistics);
 
     SearchResult run();
 
@@ -58,8 +56,8 @@ private:
     void look_at(NetworkId network);
     void trace(SearchResult& result);
 
-    const GroundProblem& problem_;
-    Prices prices_;
+    const PricedProblem& priced_;
+    const AnalysedProblem& problem_;
     SearchOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;

@@ -3,9 +3,8 @@
 
 #include <span>
 
-#include "relax/analysis/prices.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/limits.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/search_result.hpp"
 #include "relax/search/search_space.hpp"
@@ -14,12 +13,12 @@ namespace relax {
 
 // Write the plan that the steps lead to from the initial state and network, its cost and its decomposition tree. Where
 // a limit is reached before that is done, the result has no plan, and says what stopped it.
-void trace_steps(const GroundProblem& problem, const Prices& prices, Progression& progression,
-                 std::span<const SearchStep> steps, Limits& limits, SearchResult& result);
+void trace_steps(const PricedProblem& priced, Progression& progression, std::span<const SearchStep> steps,
+                 Limits& limits, SearchResult& result);
 
 // The same for the steps that lead to a node.
-void trace_plan(const GroundProblem& problem, const Prices& prices, Progression& progression, const SearchSpace& nodes,
-                NodeId goal, Limits& limits, SearchResult& result);
+void trace_plan(const PricedProblem& priced, Progression& progression, const SearchSpace& nodes, NodeId goal,
+                Limits& limits, SearchResult& result);
 
 }  // namespace relax
 

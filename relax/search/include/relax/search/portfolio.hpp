@@ -7,10 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "relax/analysis/prices.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/search/search_options.hpp"
 #include "relax/search/search_result.hpp"
 #include "relax/search/stepwise_search.hpp"
@@ -30,8 +29,7 @@ namespace relax {
 class Portfolio {
 public:
     // As for FindPlans.
-    Portfolio(const GroundProblem& problem, Prices prices, const SearchOptions& options, Limits& limits,
-              SearchStatistics& statistics);
+    Portfolio(const PricedProblem& priced, const SearchOptions& options, Limits& limits, SearchStatistics& statistics);
 
     SearchResult run();
 
@@ -56,8 +54,7 @@ private:
     void share_bounds();
     SearchResult gather();
 
-    const GroundProblem& problem_;
-    Prices prices_;
+    const PricedProblem& priced_;
     Limits& limits_;
     SearchStatistics& statistics_;
     std::optional<Cost> upper_bound_;

@@ -8,13 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "relax/analysis/prices.hpp"
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/id_table.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
 #include "relax/heuristics/heuristic.hpp"
-#include "relax/problem/ground_problem.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/action_lists.hpp"
 #include "relax/search/open_list.hpp"
@@ -70,8 +69,8 @@ class TopPlans {
 public:
     // `names`: by ActionId. `statistics` is kept up to date for whoever watches from
     // `limits.poll`. Throws Stopped.
-    TopPlans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionName>> names,
-             const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
+    TopPlans(const PricedProblem& priced, std::vector<std::optional<ActionName>> names, const TopPlansOptions& options,
+             Limits& limits, TopPlansStatistics& statistics);
 
     TopPlansResult run();
 
@@ -114,8 +113,8 @@ private:
     bool is_cheaper(LabelId left, LabelId right) const;
     SearchResult trace(LabelId goal);
 
-    const GroundProblem& problem_;
-    Prices prices_;
+    const PricedProblem& priced_;
+    const AnalysedProblem& problem_;
     std::vector<std::optional<ActionName>> names_;
     TopPlansOptions options_;
     Limits& limits_;
@@ -136,7 +135,7 @@ private:
 };
 
 // Make and run it; a limit that is reached while it is being made is a result, too.
-TopPlansResult top_plans(const GroundProblem& problem, Prices prices, std::vector<std::optional<ActionName>> names,
+TopPlansResult top_plans(const PricedProblem& priced, std::vector<std::optional<ActionName>> names,
                          const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics);
 
 }  // namespace relax

@@ -1,0 +1,45 @@
+#ifndef RELAX_ANALYSIS_PRICED_PROBLEM_HPP
+#define RELAX_ANALYSIS_PRICED_PROBLEM_HPP
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "relax/analysis/analysed_problem.hpp"
+#include "relax/analysis/prices.hpp"
+#include "relax/analysis/relaxed_model.hpp"
+#include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/base/on_demand.hpp"
+
+namespace relax {
+
+// A problem at one vector of prices, and what follows from these: each thing is made when it is first asked for, once
+// for all searches and heuristics that have these prices, also of several threads. What takes limits throws Stopped.
+class PricedProblem {
+public:
+    // The problem must live longer.
+    PricedProblem(const AnalysedProblem& problem_at_prices, Prices its_prices)
+        : problem(problem_at_prices), prices(std::move(its_prices)) {}
+
+    const AnalysedProblem& problem;
+    const Prices prices;
+
+    // Prices for lower bounds: see `shift_costs`.
+    const Prices& shifted_prices(Limits& limits) const;
+    // By TaskId, from the shifted prices: see `tdg_bound`.
+    const std::vector<Cost>& task_bounds(Limits& limits) const;
+    // At the shifted prices, both of them.
+    const RelaxedModel& composition_model(Limits& limits) const;
+    const RelaxedModel& decomposition_model(Limits& limits) const;
+
+private:
+    OnDemand<Prices> shifted_prices_;
+    OnDemand<std::vector<Cost>> task_bounds_;
+    OnDemand<RelaxedModel> composition_model_;
+    OnDemand<RelaxedModel> decomposition_model_;
+};
+
+}  // namespace relax
+
+#endif

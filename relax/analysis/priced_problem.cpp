@@ -1,0 +1,27 @@
+#include "relax/analysis/priced_problem.hpp"
+
+#include "relax/analysis/composition_model.hpp"
+#include "relax/analysis/cost_shifting.hpp"
+#include "relax/analysis/decomposition_model.hpp"
+#include "relax/analysis/tdg_bound.hpp"
+
+namespace relax {
+
+const Prices& PricedProblem::shifted_prices(Limits& limits) const {
+    return shifted_prices_.get([&] { return shift_costs(problem, prices, limits); });
+}
+
+const std::vector<Cost>& PricedProblem::task_bounds(Limits& limits) const {
+    return task_bounds_.get([&] { return tdg_bound(problem, shifted_prices(limits).actions, limits); });
+}
+
+const RelaxedModel& PricedProblem::composition_model(Limits& limits) const {
+    return composition_model_.get([&] { return relax::composition_model(problem, shifted_prices(limits), limits); });
+}
+
+const RelaxedModel& PricedProblem::decomposition_model(Limits& limits) const {
+    return decomposition_model_.get(
+        [&] { return relax::decomposition_model(problem, task_bounds(limits), shifted_prices(limits).parts, limits); });
+}
+
+}  // namespace relax
