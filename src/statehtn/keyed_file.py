@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from statehtn.errors import InputError
 from statehtn.limits import Limits
-from statehtn.read_file import read_named
+from statehtn.read_file import read_whole
 
 
 def read_tables(file: Path, limits: Limits = Limits()) -> Mapping[str, Any]:
@@ -23,7 +23,7 @@ def read_tables(file: Path, limits: Limits = Limits()) -> Mapping[str, Any]:
     import tomllib
 
     kind = "JSON" if file.suffix.lower() == ".json" else "TOML"
-    data = read_named(f"'{file}'", file, limits)
+    data = read_whole(file, limits)
     try:
         text = data.decode("utf-8-sig" if kind == "JSON" else "utf-8")
         tables = json.loads(text) if kind == "JSON" else tomllib.loads(text)
@@ -34,8 +34,15 @@ def read_tables(file: Path, limits: Limits = Limits()) -> Mapping[str, Any]:
     except RecursionError:
         raise InputError(f"{file}: this is nested too deeply") from None
     if not isinstance(tables, dict):
-        raise InputError(f"{file}: expected an object with keys, found {tables!r:.50}")
+        raise InputError(f"{file}: expected an object with keys, found {_shown(tables):.50}")
     return tables
+
+
+def _shown(value: object) -> str:
+    """Return a value in the words of the files, which have `true` and `null` where Python has `True` and `None`."""
+    import json
+
+    return repr(value) if isinstance(value, str) else json.dumps(value, default=str)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +54,7 @@ class KeyedTable:
 
     def complain(self, key: str, expected: str, found: object) -> NoReturn:
         """Raise the error that a key has a wrong value."""
-        raise InputError(f"{self.place}: '{key}': expected {expected}, found {found!r}")
+        raise InputError(f"{self.place}: '{key}': expected {expected}, found {_shown(found)}")
 
     def check_keys(self, known: Iterable[str]) -> None:
         """Raise an error for the first key that is not known."""

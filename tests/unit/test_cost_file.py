@@ -170,7 +170,7 @@ WRONG = [
     ('[[costs]]\naction = "brake"\ncost = 1\nsamples = [1]', "found cost and samples"),
     ('[[costs]]\naction = "brake"\ncost = 1\nprior = 1', "unknown key 'prior'"),
     ('[[costs]]\naction = "brake"\ncost = "x"', "'cost': expected a number, found 'x'"),
-    ('[[costs]]\naction = "brake"\ncost = true', "'cost': expected a number, found True"),
+    ('[[costs]]\naction = "brake"\ncost = true', "'cost': expected a number, found true"),
     ('[[costs]]\naction = "brake"\ncost = -1', "'cost': a cost must be a finite number and at least 0, found -1"),
     ('[[costs]]\naction = "brake"\ncost = ' + "9" * 400, "'cost': a number of 400 digits is too large"),
     ('[[costs]]\naction = "brake"\ncost = ' + "9" * 9000, "this is no TOML: Exceeds the limit"),

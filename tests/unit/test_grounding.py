@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import time
 
 import pytest
 
@@ -254,10 +253,9 @@ def chain(parameters: int) -> str:
 def test_many_parameters_are_joined_not_enumerated() -> None:
     places = 400
     roads = " ".join(f"(road l{i} l{i + 1})" for i in range(places - 1))
-    started = time.monotonic()
-    found = model(chain(10), init=f"(at l0) {roads}", places=places)
+    ways = problem(chain(10), init=f"(at l0) {roads}", places=places)
+    found = ground(ways, Limits.starting_now(120), switches=PLAIN).to_model()  # 400^10 tuples take years
     assert actions(found) == [("visit", "l9")]
-    assert time.monotonic() - started < 5
 
 
 @pytest.mark.parametrize(
@@ -276,10 +274,8 @@ def test_too_many_cases_are_refused_at_once(precondition: str, cost: str) -> Non
       (:action dry :parameters (?l - place) :effect (and (not (wet ?l)) (not (at ?l))))
       (:action cross :parameters () :precondition {precondition} :effect (and (done) {cost}))
     """
-    started = time.monotonic()
     with pytest.raises(UnsupportedError, match="cross"):
-        ground(problem(domain, init="", places=40))
-    assert time.monotonic() - started < 5
+        ground(problem(domain, init="", places=40), Limits.starting_now(120))  # 2^40 cases take hours
     assert ground(problem(domain, init="", places=4)).handle.solvable
 
 

@@ -106,9 +106,9 @@ def test_nesting_as_deep_as_allowed_and_deeper(tmp_path: Path) -> None:
 
 
 def test_files_that_cannot_be_read(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"cannot read .*missing\.hddl: no such file"):
+    with pytest.raises(InputError, match=r"cannot read '.*missing\.hddl': No such file"):
         read_text(tmp_path / "missing.hddl")
-    with pytest.raises(InputError, match="cannot read .*: is a directory"):
+    with pytest.raises(InputError, match="cannot read '.*': Is a directory"):
         read_text(tmp_path)
     with pytest.raises(InputError, match="cannot read"):
         read_text("a\0b")

@@ -13,6 +13,7 @@ import pytest
 import statehtn
 from statehtn import Status
 from statehtn.cli import files, main
+from statehtn.cli.streams import OutputError
 from statehtn.limits import Limits
 from statehtn.pipeline import Session, solutions
 from statehtn.settings import Settings
@@ -120,6 +121,39 @@ def test_an_input_on_standard_input_is_not_replaced(inputs: list[str]) -> None:
     assert (process.returncode, Path(inputs[0]).read_text()) == (2, DOMAIN)
 
 
+@pytest.mark.parametrize("command", [["plan", "--quiet"], ["graph", "--format", "dot"]])
+def test_samples_that_costs_are_read_from_are_not_replaced(
+    tmp_path: Path, inputs: list[str], command: list[str], capsys: Capture
+) -> None:
+    (tmp_path / "samples.txt").write_text("1 2 3")
+    costs = tmp_path / "costs.toml"
+    costs.write_text('[[costs]]\naction = "take-train"\nsamples = "samples.txt"\n')
+    output = str(tmp_path / "samples.txt")
+    assert main([*command, *inputs, "--costs", str(costs), "--output", output]) == 2
+    assert f"'{output}' would replace the input '{output}'" in capsys.readouterr().err
+    assert (tmp_path / "samples.txt").read_text() == "1 2 3"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_that_nobody_reads_ends_at_the_limit(tmp_path: Path, inputs: list[str], capsys: Capture) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    assert main(["plan", *inputs, "--quiet", "--output", str(tmp_path / "pipe"), "--time-limit", "1"]) == 74
+    captured = capsys.readouterr()
+    assert "nobody reads it" in captured.err
+    assert captured.out  # the plan was found
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_reader_that_stops_does_not_hold_up_a_run(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        with pytest.raises(OutputError, match="nobody reads it"):
+            files.OutputFile(str(tmp_path / "pipe")).write("x" * 10**7, Limits.starting_now(0.2))
+    finally:
+        os.close(reader)
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
 def test_pipes_and_devices_are_not_removed(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
@@ -217,8 +251,8 @@ def test_without_nameless_files_plans_are_replaced_whole(
 def test_an_interruption_loses_no_plan_that_was_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
-    def interrupted(output: files.OutputFile, text: str) -> None:
-        writing(output, text)
+    def interrupted(output: files.OutputFile, text: str, limits: Limits) -> None:
+        writing(output, text, limits)
         monkeypatch.setattr(files.OutputFile, "write", writing)
         raise KeyboardInterrupt
 

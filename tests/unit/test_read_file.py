@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import socket
@@ -15,7 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from statehtn import InputError, read_costs, read_hddl
+from statehtn import InputError, read_costs, read_file, read_hddl
 from statehtn.cli import files, main
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import TypeHierarchy
@@ -119,6 +120,45 @@ def test_a_device_without_an_end_is_no_text() -> None:
         read_costs("/dev/zero", Limits.starting_now(0.1))
     with pytest.raises(LimitReached):
         read_costs("/dev/zero", Limits.starting_now(memory_limit=1))
+
+
+@pytest.mark.parametrize("file", ["domain", "costs", "samples", "plan"])
+def test_what_has_no_end_is_refused(
+    file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(read_file, "MOST_UNBOUNDED", 3 * PIECE)
+    names = {name: str(tmp_path / name) for name in ("domain", "problem", "costs", "samples", "plan")}
+    Path(names["domain"]).write_text(DOMAIN)
+    Path(names["problem"]).write_text(PROBLEM)
+    Path(names["costs"]).write_text('[[costs]]\naction = "go"\nsamples = "samples"\n')
+    Path(names["samples"]).write_text("1 2")
+    Path(names["plan"]).write_text("(go)\n")
+    Path(names[file]).unlink()
+    os.mkfifo(names[file])
+    ended = threading.Event()
+
+    def write() -> None:
+        with open(names[file], "wb", buffering=0) as pipe, contextlib.suppress(BrokenPipeError):
+            while not ended.is_set():
+                pipe.write(b" " * PIECE)
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    try:
+        arguments = [names["domain"], names["problem"], names["plan"], "--costs", names["costs"]]
+        assert main(["validate", *arguments]) == 30
+    finally:
+        ended.set()
+        writer.join()
+    assert "is no regular file, and more than 3 MiB come out of it" in capsys.readouterr().err
+    with pytest.raises(InputError, match="no regular file"):
+        read_costs("/dev/zero")
+
+
+def test_a_large_file_is_no_endless_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(read_file, "MOST_UNBOUNDED", 10)
+    (tmp_path / "large").write_bytes(b" " * 20)
+    assert len(read_file.read_whole(tmp_path / "large")) == 20
 
 
 def test_a_name_that_no_file_can_have() -> None:

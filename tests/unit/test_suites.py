@@ -182,7 +182,7 @@ RUNS = '[[runs]]\ndomain = "trips/domain.hddl"\nproblems = "trips/p1.hddl"\n'
         (f"alphas = [1]\nattitudes = 'seeking'\n{RUNS}attitudes = 'averse'", "needs an alpha"),
         (f"{RUNS}attitudes = 'averse'\nalphas = [0.1, -1]", "'alphas': expected positive numbers, found -1"),
         (f"{RUNS}attitudes = 'averse'\nalphas = nan", "'alphas'"),
-        (f"{RUNS}attitudes = 'averse'\nalphas = true", "found True"),
+        (f"{RUNS}attitudes = 'averse'\nalphas = true", "found true"),
         (f"{RUNS}repeat = 0", "'repeat': expected a whole number of at least 1, found 0"),
         (f"{RUNS}repeat = 1.5", "'repeat'"),
         (f"{RUNS}time-limit = '1'", "'time-limit': expected a positive number"),

@@ -18,7 +18,7 @@ from statehtn.limits import Limits
 from statehtn.model import CostDistribution, CostLaw
 from statehtn.model.cost.scipy_call import scipy_call
 from statehtn.model.cost.scipy_law import ScipyCost
-from statehtn.read_file import read_named
+from statehtn.read_file import read_whole
 
 OWN_KEYS = ("action", "arguments")
 
@@ -29,6 +29,7 @@ class _Place:
 
     folder: Path
     limits: Limits
+    files: list[str]  # that were read
 
 
 def read_costs(file: str | os.PathLike[str], limits: Limits = Limits()) -> CostTable:
@@ -51,12 +52,11 @@ def read_costs(file: str | os.PathLike[str], limits: Limits = Limits()) -> CostT
     if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
         whole.complain("costs", "a list of tables, such as [[costs]] in TOML", tables)
     entries = []
+    where = _Place(path.parent, limits, [])
     for number, values in enumerate(tables, 1):
         table = KeyedTable(f"{path}: entry {number} of 'costs'", values)
-        entries.append(
-            CostEntry(table.place, table.text("action"), _arguments(table), _law(table, _Place(path.parent, limits)))
-        )
-    return CostTable(tuple(entries))
+        entries.append(CostEntry(table.place, table.text("action"), _arguments(table), _law(table, where)))
+    return CostTable(tuple(entries), tuple(where.files))
 
 
 def _arguments(table: KeyedTable) -> tuple[str, ...] | None:
@@ -98,6 +98,7 @@ def _outcomes(table: KeyedTable, _: _Place) -> CostLaw:
 def _samples(table: KeyedTable, where: _Place) -> CostLaw:
     given = table.values["samples"]
     if isinstance(given, str):
+        where.files.append(str(where.folder / given))
         return CostDistribution.from_samples(_numbers_in(table, where.folder / given, where.limits))
     if not isinstance(given, list):
         table.complain("samples", "a list of numbers, or the name of a file with numbers", given)
@@ -187,7 +188,7 @@ def _by_cost(table: KeyedTable, key: str, what: str) -> dict[float, float]:
 def _numbers_in(table: KeyedTable, path: Path, limits: Limits) -> list[float]:
     """Read numbers that are separated by white space, commas or semicolons."""
     try:
-        text = read_named(f"'{path}'", path, limits).decode("utf-8")
+        text = read_whole(path, limits).decode("utf-8")
     except InputError as error:
         raise InputError(f"{table.place}: 'samples': {error.message}") from None
     except UnicodeDecodeError:

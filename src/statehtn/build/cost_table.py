@@ -60,9 +60,11 @@ class CostTable:
 
     Args:
         entries: the laws, in the file's order: of several for one instance the first one counts.
+        files: the names of the files with samples that were read for them.
     """
 
     entries: tuple[CostEntry, ...]
+    files: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<cost table: {len(self.entries)} entries>"

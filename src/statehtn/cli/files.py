@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import errno
 import os
+import select
 import stat
 import tempfile
+import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from statehtn.cli.streams import OutputError, emit_file
 from statehtn.errors import UsageError
 from statehtn.hddl import read_hddl
-from statehtn.limits import Limits, watched
+from statehtn.limits import SECONDS_BETWEEN_LOOKS, LimitReached, Limits, watched
 from statehtn.model import Problem
 from statehtn.streams import own_descriptor
 
@@ -25,7 +28,7 @@ def read_problem(options: argparse.Namespace, limits: Limits = Limits()) -> Prob
     """Read the problem that the options name, with the costs that they name.
 
     Raises:
-        StateHtnError: a file is wrong.
+        StateHtnError: a file is wrong, or one that the costs are read from is the output.
         LimitReached: a limit was reached.
     """
     with watched(limits):
@@ -34,7 +37,10 @@ def read_problem(options: argparse.Namespace, limits: Limits = Limits()) -> Prob
             return problem
         from statehtn.build.cost_file import read_costs  # few runs need it
 
-        return read_costs(options.costs, limits).apply(problem)
+        table = read_costs(options.costs, limits)
+        if (output := getattr(options, "output", None)) is not None:
+            _refuse_inputs(output, table.files)
+        return table.apply(problem)
 
 
 class OutputFile:
@@ -68,31 +74,30 @@ class OutputFile:
             raise UsageError(f"cannot write '{name}': there is no directory '{Path(name).parent}'")
         if not os.access(self.path.parent if mode is None else self.path, os.W_OK):
             raise UsageError(f"cannot write '{name}': permission denied")
-        for file in inputs:
-            if self.is_regular and file is not None and _are_one(self.path, file):
-                raise UsageError(f"--output '{name}' would replace the input '{file}'; choose another name")
+        if self.is_regular:
+            _refuse_inputs(name, inputs)
 
     @property
     def is_stdout(self) -> bool:
         """Whether it is standard output."""
         return self.descriptor == 1
 
-    def write(self, text: str) -> None:
+    def write(self, text: str, limits: Limits = Limits()) -> None:
         """Write a result; a regular file holds what it held before until it holds all of the text.
 
         Raises:
-            OutputError: it cannot be written.
+            OutputError: it cannot be written; a pipe also where nobody has read it when a limit is reached.
         """
         if self.is_stdout:
             emit_file(text)
             return
         with self._failing(), contextlib.suppress(BrokenPipeError):  # who reads no more has what it wants
             if self.descriptor is not None:
-                _write(os.dup(self.descriptor), text)
+                _write_when_read(os.dup(self.descriptor), text, limits)
             elif self.is_regular and os.access(self.path.parent, os.W_OK):
                 _replace(self.path, text)
             else:
-                _write(os.open(self.path, os.O_WRONLY | os.O_TRUNC), text)
+                _write_when_read(_opened_when_read(self.path, limits), text, limits)
 
     def remove(self) -> None:
         """Remove the file of an earlier run; pipes and devices stay.
@@ -110,12 +115,21 @@ class OutputFile:
             yield
         except OSError as error:
             raise OutputError(f"cannot write '{self.name}': {error.strerror}") from error
+        except (LimitReached, KeyboardInterrupt) as ending:
+            raise OutputError(f"cannot write '{self.name}': nobody reads it") from ending
 
 
-def _are_one(path: Path, name: str) -> bool:
+def _refuse_inputs(output: str, inputs: Iterable[str | None]) -> None:
+    """Raise a `UsageError` if the output is one of the inputs."""
+    for name in inputs:
+        if name is not None and _are_one(output, name):
+            raise UsageError(f"--output '{output}' would replace the input '{name}'; choose another name")
+
+
+def _are_one(first: str, second: str) -> bool:
     """Tell whether two names are those of one file, be it that there is none yet."""
     with contextlib.suppress(OSError, ValueError):  # one is not there, or can be the name of no file
-        return path == Path(os.path.realpath(name)) or path.samefile(name)
+        return os.path.realpath(first) == os.path.realpath(second) or Path(first).samefile(second)
     return False
 
 
@@ -131,6 +145,33 @@ def _write(descriptor: int, text: str) -> None:
     """Write a text to an open file, and close it."""
     with open(descriptor, "wb") as file:
         file.write(text.encode())
+
+
+def _opened_when_read(path: Path, limits: Limits) -> int:
+    """Open a file that is there; a pipe once somebody reads it."""
+    while True:
+        try:
+            return os.open(path, os.O_WRONLY | os.O_TRUNC | os.O_NONBLOCK)
+        except OSError as error:
+            if error.errno != errno.ENXIO:
+                raise
+        limits.check()
+        time.sleep(SECONDS_BETWEEN_LOOKS)
+
+
+def _write_when_read(descriptor: int, text: str, limits: Limits) -> None:
+    """Write a text to an open file, piece by piece as somebody takes it, and close it."""
+    left = memoryview(text.encode())
+    poll = select.poll()
+    poll.register(descriptor, select.POLLOUT)
+    try:
+        while left:
+            if poll.poll(1000 * SECONDS_BETWEEN_LOOKS):
+                left = left[os.write(descriptor, left[: select.PIPE_BUF]) :]  # so many never wait
+            else:
+                limits.check()
+    finally:
+        os.close(descriptor)
 
 
 def _replace(path: Path, text: str) -> None:

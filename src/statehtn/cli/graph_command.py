@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import ExitCode
-from statehtn.cli.files import OutputFile, read_problem
+from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.streams import emit
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.counted import counted
@@ -45,6 +45,8 @@ def run_graph(options: argparse.Namespace) -> ExitCode:
     """
     form = options.format or Path(options.output).suffix.lower().removeprefix(".")
     if form not in FORMATS:
+        if options.output == STDOUT:
+            raise UsageError("--output - needs --format beside it: svg, dot or graphml")
         endings = ", ".join(f".{name}" for name in FORMATS)
         raise UsageError(f"'{options.output}': expected a name that ends in {endings}, or --format beside it")
     agent = agent_of(options)

@@ -11,7 +11,7 @@ from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
-from statehtn.cli.streams import OutputError, emit, say
+from statehtn.cli.streams import OutputError, emit, emit_lines, say
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
@@ -42,8 +42,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
     output = None if options.output is None else OutputFile(options.output, inputs)
     if output and output.is_stdout and options.json:
         raise UsageError("both --json and the plan of --output would go to standard output; leave out one of them")
-    keeper = _PlanKeeper(output)
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
+    keeper = _PlanKeeper(output, limits)
     session = Session(partial(read_problem, options))
     every_plan = output is not None and output.is_regular
     result = Result(Status.INTERRUPTED, settings, Meter().read(), Status.INTERRUPTED)
@@ -64,8 +64,9 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
 class _PlanKeeper:
     """Writes plans to the file of --output; a failure waits, since what was found must be printed first."""
 
-    def __init__(self, output: OutputFile | None) -> None:
+    def __init__(self, output: OutputFile | None, limits: Limits) -> None:
         self.output = output
+        self.limits = limits
         self.written: Plan | None = None
         self.failure: OutputError | None = None
 
@@ -75,7 +76,7 @@ class _PlanKeeper:
             return
         self.failure = None
         try:
-            self.output.write(write_plan(result.plan, problem))
+            self.output.write(write_plan(result.plan, problem), self.limits)
             self.written = result.plan
         except OutputError as error:
             self.failure = error
@@ -97,7 +98,7 @@ def _print(result: Result, options: argparse.Namespace, beside: bool) -> None:
         emit(json.dumps(result.to_dict(), allow_nan=False))
     elif options.quiet:
         if result.steps and not beside:
-            emit("\n".join(str(priced.step) for priced in result.steps))
+            emit_lines(str(priced.step) for priced in result.steps)
     else:
         from statehtn.display.result import readable_result
 

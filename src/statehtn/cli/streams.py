@@ -6,7 +6,7 @@ import contextlib
 import os
 import shutil
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TextIO
 
 from statehtn.errors import printable
@@ -68,6 +68,15 @@ def emit_file(text: str) -> None:
             stream.write(text)
 
     _to_stdout(write)
+
+
+def emit_lines(lines: Iterable[str]) -> None:
+    """Print lines for other programs on standard output: in UTF-8, as files are, whatever the terminal's encoding.
+
+    Raises:
+        OutputError: standard output cannot be written.
+    """
+    emit_file("".join(f"{printable(line)}\n" for line in lines))
 
 
 def _print(text: str, stream: TextIO) -> None:

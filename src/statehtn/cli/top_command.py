@@ -12,7 +12,7 @@ from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
-from statehtn.cli.streams import OutputError, emit
+from statehtn.cli.streams import OutputError, emit, emit_lines
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
@@ -93,8 +93,7 @@ def _print(result: TopPlans, options: argparse.Namespace) -> None:
     if options.json:
         emit(json.dumps(result.to_dict(), allow_nan=False))
     elif options.quiet:
-        for ranked in result:
-            emit(" ".join(str(priced.step) for priced in ranked.steps))
+        emit_lines(" ".join(str(priced.step) for priced in ranked.steps) for ranked in result)
     else:
         from statehtn.display.top_plans import readable_top_plans
 

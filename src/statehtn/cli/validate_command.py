@@ -13,7 +13,7 @@ from statehtn.hddl.action_list import read_actions
 from statehtn.hddl.plan_format import read_plan, write_plan
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import Step
-from statehtn.read_file import read_named
+from statehtn.read_file import read_whole
 from statehtn.validation import Validation
 from statehtn.verify import validate
 
@@ -51,6 +51,6 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
 
 def _read_text(name: str, limits: Limits) -> str:
     try:
-        return read_named(f"'{name}'", name, limits).decode("utf-8")
+        return read_whole(name, limits).decode("utf-8")
     except UnicodeDecodeError as error:
         raise InputError(f"'{name}' is no text file: byte {error.start} cannot be decoded") from None

@@ -25,7 +25,7 @@ def comparison_text(comparison: AttitudeComparison) -> str:
     """Return the plans side by side, a table of their costs to every agent, and the reasons, in lines."""
     table = _side_by_side(comparison)
     blocks = [] if table is None else [table.to_text()]
-    blocks.append("\n".join((_costs(comparison).to_text(), *NOTES)))
+    blocks.append("\n".join((_costs(comparison).to_text(), *_legend(comparison))))
     return "\n\n".join((*blocks, *_reasons(comparison)))
 
 
@@ -33,11 +33,15 @@ def comparison_html(comparison: AttitudeComparison) -> str:
     """Return what `comparison_text` does as HTML for a notebook, with the reasons folded."""
     table = _side_by_side(comparison)
     parts = [] if table is None else [table.to_html()]
-    parts += [_costs(comparison).to_html(), *(f"<div>{escape(note)}</div>" for note in NOTES)]
+    parts += [_costs(comparison).to_html(), *(f"<div>{escape(note)}</div>" for note in _legend(comparison))]
     if reasons := list(_reasons(comparison)):
         text = escape("\n\n".join(reasons))
         parts.append(f'<details><summary>why</summary><pre style="line-height: 1.25">{text}</pre></details>')
     return f"<div>{''.join(parts)}</div>"
+
+
+def _legend(comparison: AttitudeComparison) -> tuple[str, ...]:
+    return NOTES if any(comparison.results) else ()
 
 
 def _side_by_side(comparison: AttitudeComparison) -> Table | None:
@@ -75,6 +79,9 @@ def _shortened(rows: Sequence[tuple[bool, Sequence[str]]], width: int) -> Iterat
 def _costs(comparison: AttitudeComparison) -> Table:
     heads = ("least", "expected", "most", *(f"for {agent}" for agent in comparison.agents))
     prices, results = comparison.risk_costs, comparison.results
+    if not any(results):
+        endings = [(agent, str(result.status)) for agent, result in zip(comparison.agents, results, strict=True)]
+        return Table((Column("agent"), Column("plan")), endings)
     proven = [prices[i][i] if result.status is Status.OPTIMAL else None for i, result in enumerate(results)]
     rows = []
     for agent, result, row in zip(comparison.agents, results, prices, strict=True):

@@ -14,10 +14,22 @@ from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE
 from statehtn.model.cost.ground_cost import evaluate
 
 TOTAL_COST = "total-cost"
+LEAST_NUMBER, MOST_NUMBER = (
+    Fraction(1, 10**300),
+    Fraction(10**300),
+)  # smaller and larger ones are none, or are cut, in floating point
 Branches = tuple[tuple[Expression, Expression], ...]
 
+_AROUND = {
+    "when": "conditions stand around: (when <condition> (probabilistic ...))",
+    "forall": "quantifiers stand around: (forall (<variables>) (probabilistic ...))",
+    "probabilistic": "write the products of the probabilities in one block",
+}
+"""What to write instead of what is not read inside a branch."""
+
 _NUMBER = re.compile(
-    r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e([+-]?[0-9]{1,3}))?|[+-]?[0-9]+/0*[1-9][0-9]*", re.ASCII | re.IGNORECASE
+    r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)(e[+-]?(?P<exponent>[0-9]+))?|[+-]?[0-9]+/0*[1-9][0-9]*",
+    re.ASCII | re.IGNORECASE,
 )
 MAX_DIGITS = 2000
 
@@ -25,9 +37,24 @@ MAX_DIGITS = 2000
 def read_number(text: str) -> Fraction | None:
     """Return the exact value of `3`, `-0.5`, `.5`, `1e-3` or `1/3`; None for anything else.
 
-    Numbers of more than 2000 characters and exponents of more than three digits are none.
+    Numbers of more than 2000 characters, exponents of more than three digits and what is out of the range of
+    floating-point numbers are none.
     """
-    return Fraction(text) if len(text) <= MAX_DIGITS and _NUMBER.fullmatch(text) else None
+    match = _NUMBER.fullmatch(text)
+    if match is None or len(text) > MAX_DIGITS or len(match["exponent"] or "") > 3:
+        return None
+    value = Fraction(text)
+    return value if not value or LEAST_NUMBER <= abs(value) <= MOST_NUMBER else None
+
+
+def not_read(expected: str, word: Word) -> str:
+    """Return the message that a word is no number where one, or something else, is `expected`."""
+    if _NUMBER.fullmatch(word.text):
+        return (
+            f"the number {describe(word)} is out of range: its size must be 0, or from 1e-300 to 1e300, and it must "
+            f"have at most {MAX_DIGITS} characters, and an exponent of three digits"
+        )
+    return f"expected {expected}, found {describe(word)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,9 +120,7 @@ class CostReader:
             value = read_number(node.text)
             if value is None:
                 hint = "; functions stand in parentheses" if self.vocabulary.function(node.text) else ""
-                raise self.reporter.error(
-                    f"expected a number or a function in parentheses, found {describe(node)}{hint}", node
-                )
+                raise self.reporter.error(not_read("a number or a function in parentheses", node) + hint, node)
             return Number(value)
         signature = self.vocabulary.function(node.name)
         if signature is not None:
@@ -127,10 +152,10 @@ class CostReader:
         if node.head == "and":
             costs = tuple(self._outcome(item, scope) for item in node.items[1:])
             return costs[0] if len(costs) == 1 else Arithmetic("+", costs) if costs else Number(Fraction(0))
-        raise self.reporter.unsupported(
-            f"a branch of 'probabilistic' can only increase (total-cost), not change facts, found {describe(node)}",
-            node,
-        )
+        only = "a branch of 'probabilistic' can only increase (total-cost)"
+        if hint := _AROUND.get(node.head):
+            raise self.reporter.unsupported(f"{only}, found {describe(node)}; {hint}", node)
+        raise self.reporter.unsupported(f"{only}, not change facts, found {describe(node)}", node)
 
     def _check_sum(self, branches: list[tuple[Expression, Expression]], node: Group) -> None:
         total = Fraction(0)

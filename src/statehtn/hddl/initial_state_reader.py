@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Literal
 
-from statehtn.hddl.cost_reader import TOTAL_COST, read_number
+from statehtn.hddl.cost_reader import TOTAL_COST, not_read, read_number
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
 from statehtn.hddl.vocabulary import Vocabulary
@@ -176,7 +176,7 @@ class InitialStateReader:
             raise self._reporter.error("expected '(= (<function> <objects>) <number>)'", node)
         value = read_number(number.text)
         if value is None:
-            raise self._reporter.error(f"expected a number, found {describe(number)}", number)
+            raise self._reporter.error(not_read("a number", number), number)
         if term.head == TOTAL_COST and len(term.items) == 1:
             if value:
                 self._reporter.warn("the total cost starts at 0; another value is ignored", node)

@@ -206,15 +206,10 @@ def read_text(path: str | PathLike[str], limits: Limits = Limits()) -> str:
     """
     file = fspath(path)
     pieces: list[bytes] = []
-    try:
-        for piece in read_pieces(file, limits):
-            pieces.append(piece)
-            if b"\0" in piece:  # perhaps a device without an end
-                break
-    except OSError as error:
-        raise InputError(f"cannot read {file}: {(error.strerror or str(error)).lower()}") from None
-    except ValueError as error:  # a name with a NUL in it
-        raise InputError(f"cannot read {file!r}: {error}") from None
+    for piece in read_pieces(file, limits):
+        pieces.append(piece)
+        if b"\0" in piece:  # perhaps a device without an end
+            break
     data = b"".join(pieces)
     if (nul := data.find(b"\0")) >= 0:
         raise InputError("the file is binary (a NUL byte), expected HDDL text", _place_of_byte(file, data, nul))

@@ -83,6 +83,8 @@ def read_types(declared: Sequence[tuple[Word, list[Word]]], vocabulary: Vocabula
         InputError: a type is above itself, or two types with different supertypes differ in case only.
     """
     for word, _ in declared:
+        if ":" in word.text[1:]:
+            reporter.warn(f"'{word.text}' is one name; a type above others stands after ' - '", word)
         if vocabulary.spelling("type", new_name(word, "type", word, reporter).text) is None:
             vocabulary.declare("type", (word.text,), reporter.source, word.index)
     for word in (kind for _, supertypes in declared for kind in supertypes):
@@ -203,7 +205,8 @@ def read_parameters(
     names: dict[str, Word] = {}
     for word, types in typed_list(nodes, reporter):
         if not word.text.startswith("?") or word.text == "?":
-            raise reporter.error(f"expected a variable such as '?x', found {describe(word)}", word)
+            alone = ", alone; is there a space too many behind it?" if word.text == "?" else ""
+            raise reporter.error(f"expected a variable such as '?x', found {describe(word)}{alone}", word)
         if word.lower in names:
             before = names[word.lower]
             respelt = f" (as '{before.text}', and case means nothing in HDDL)" if before.text != word.text else ""

@@ -115,6 +115,8 @@ class Exponential:
 def _power_of_ten(log10: Decimal, digits: int) -> str:
     """Print `10^log10` with so many significant digits, as `format(..., 'g')` does where a float can hold it."""
     exponent = math.floor(log10)
+    if abs(exponent) >= 10**18:  # more than any reader of decimal numbers takes
+        return f"10^{log10:.9e}"
     mantissa = _MANY_DIGITS.power(Decimal(10), _MANY_DIGITS.subtract(log10, Decimal(exponent)))
     if -300 < exponent < 300:
         return format(float(f"{mantissa}e{exponent}"), f".{digits}g")

@@ -219,7 +219,7 @@ def law_of(distribution: Any) -> CostLaw:
         return _listed(law)
     if law.is_discrete and math.isfinite(most):
         raise UnsupportedError(
-            f"{law} has {most - least + 1:.0f} outcomes, more than {MOST_OUTCOMES}; give a continuous law that is "
+            f"{law} has {most - least + 1:.15g} outcomes, more than {MOST_OUTCOMES}; give a continuous law that is "
             f"close to it, or outcomes or samples"
         )
     from statehtn.model.cost.numerics.moment_generating import CLOSED_FORMS
