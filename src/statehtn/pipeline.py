@@ -114,7 +114,8 @@ def solutions(
             heuristic, branch = settings.heuristic, settings.branch
             found = search_networks(problem, heuristic=heuristic, branch=branch, limits=limits, progress=progress)
         else:
-            found = improving_plans(problem, settings.heuristic, settings.search, settings.weight, limits, progress)
+            how = settings.heuristic, settings.search, settings.weight
+            found = improving_plans(problem, *how, limits, progress, settings.switches)
         return found if every_plan else _last_alone(found)
 
     for reached in _run(session, settings.objective, search, limits):

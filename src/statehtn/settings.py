@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import Literal
 
 from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS, PORTFOLIO
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.searches import SEARCHES, TAKES
+from statehtn.core.switches import SearchSwitches
 from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.expected import number, one_of, whole_number
@@ -25,6 +26,10 @@ SOLVERS: Mapping[str, str] = MappingProxyType(
 """The solvers by name, with a line about each."""
 HEURISTIC_CHOICES = (PORTFOLIO, *HEURISTICS)
 """What may be asked for as a heuristic."""
+SWITCHES = tuple(field.name for field in fields(SearchSwitches))
+"""The refinements that the solver `state` can do without."""
+NOTHING = "nothing"
+"""What is left out of the complete search."""
 DEFAULT_WEIGHT = 2.0
 MOST_PLANS = 1_000_000_000
 
@@ -48,6 +53,7 @@ class Settings:
     search: str
     weight: float
     branch: str
+    without: tuple[str, ...] = ()
 
     @staticmethod
     def of(
@@ -57,8 +63,9 @@ class Settings:
         search: str = "astar",
         weight: float | None = None,
         branch: str | None = None,
+        without: Sequence[str] = (),
     ) -> Settings:
-        """Check the arguments, described at `statehtn.plan`.
+        """Check the arguments, described at `statehtn.plan`; `without`: names from `SWITCHES` to leave out.
 
         Raises:
             UsageError: a name is unknown, a number out of range, or they do not go together.
@@ -69,7 +76,9 @@ class Settings:
             one_of(heuristic, HEURISTIC_CHOICES, "heuristic")
         if branch is not None:
             one_of(branch, BRANCHES, "branch")
-        if reason := mismatch(solver, heuristic, search):
+        for name in without:
+            one_of(name, SWITCHES, "refinement")
+        if reason := mismatch(solver, heuristic, search, without):
             raise UsageError(reason)
         if branch is not None and solver != "plan":
             raise UsageError(f"a branch belongs to the solver 'plan', not to '{solver}'")
@@ -80,7 +89,13 @@ class Settings:
         if weight is None:
             weight = DEFAULT_WEIGHT if search == "weighted" else 1.0
         heuristic = heuristic or TAKES[solver, search][0]
-        return Settings(objective, solver, heuristic, search, weight, branch or "fewest")
+        left_out = tuple(sorted(set(without)))
+        return Settings(objective, solver, heuristic, search, weight, branch or "fewest", left_out)
+
+    @property
+    def switches(self) -> SearchSwitches:
+        """The refinements of the search, without those to leave out."""
+        return SearchSwitches(**dict.fromkeys(self.without, False))
 
     @property
     def problem_class(self) -> str:
@@ -122,11 +137,18 @@ class TopSettings:
         return str(problem_class("state", self.objective))
 
 
-def mismatch(solver: str, heuristic: str | None, search: str) -> str | None:
-    """Return why a solver does not take a heuristic, None for its own, and a search together; None if it does."""
+def switches_in(text: str) -> tuple[str, ...]:
+    """Return the names in a text such as `endings+stubborn_sets`; none for `nothing`."""
+    return () if text == NOTHING else tuple(text.split("+"))
+
+
+def mismatch(solver: str, heuristic: str | None, search: str, without: Sequence[str] = ()) -> str | None:
+    """Return why a solver does not take a heuristic, None for its own, a search and omissions together; None if so."""
     takes = TAKES.get((solver, search))
     if takes is None:
         return f"the solver '{solver}' has no search but 'astar', found '{search}'"
+    if without and solver != "state":
+        return f"the solver '{solver}' has none of the refinements of 'state', found '{'+'.join(without)}'"
     if heuristic is None or heuristic in takes:
         return None
     if solver == "plan":

@@ -139,6 +139,18 @@ def test_a_grid_of_settings(tree: Path, tmp_path: Path, capsys: Capture) -> None
     assert "averse 0.9 state/greedy lmcut" in capsys.readouterr().out
 
 
+def test_a_run_without_a_refinement(tmp_path: Path) -> None:
+    output = tmp_path / "results.csv"
+    options = ["--suite", "paper", "--domain", "av", "--problem", "p1", "--attitude", "neutral", "--solver", "state"]
+    options += ["--without", "nothing", "follow_forced", "--heuristic", "lmcut", "--output", str(output), "--quiet"]
+    assert main(["compare", *options]) == 0
+    complete, lacking = rows_of(output)
+    assert (complete["solver"], lacking["solver"]) == ("state", "state without follow_forced")
+    assert complete["status"] == lacking["status"] == "optimal"
+    assert complete["risk_cost"] == lacking["risk_cost"]
+    assert int(complete["evaluated"]) < int(lacking["evaluated"])
+
+
 def test_it_goes_on_where_it_stopped(tree: Path, tmp_path: Path) -> None:
     output = tmp_path / "results.csv"
     options = ["--domain", "*Errands", "--output", str(output)]
@@ -265,6 +277,7 @@ def test_other_limits_are_not_mixed(tree: Path, tmp_path: Path, capsys: Capture)
         (["--suite", "ipc", "--root", "TREE", "--alpha", "1"], 2, "alpha"),
         (["--suite", "ipc", "--root", "TREE", "--attitude", "seeking", "--alpha", "-1"], 2, "alpha"),
         (["--suite", "ipc", "--root", "TREE", "--heuristic", "magic"], 2, "magic"),
+        (["--suite", "ipc", "--root", "TREE", "--without", "magic"], 2, "magic"),
         (["--suite", "ipc", "--root", "TREE", "--retry", "magic"], 2, "errors"),
         (["--suite", "ipc", "--root", "TREE", "--retry", "errors"], 2, "--output"),
         (["--suite", "ipc", "--root", "TREE", "--output", "/no/such/folder/x.csv"], 2, "/no/such/folder"),

@@ -48,6 +48,8 @@ def inputs(tmp_path: Path) -> list[str]:
         (["--solver", "plan", "--heuristic", "lmcut"], "has no state"),
         (["--solver", "plan", "--search", "greedy"], "has no search but"),
         (["--branch", "all"], "branch"),
+        (["--without", "ending"], "endings"),
+        (["--solver", "plan", "--without", "endings"], "refinements"),
         (["--weight", "2"], "weight"),
         (["--search", "weighted", "--weight", "0.5"], "weight"),
         (["--json", "--quiet"], "not allowed"),

@@ -16,7 +16,7 @@ from statehtn.experiments import suites
 from statehtn.experiments.run import Grid, Run
 from statehtn.experiments.suites import runs_of
 from statehtn.risk import utility_for
-from statehtn.settings import SOLVERS
+from statehtn.settings import SOLVERS, SWITCHES
 from tests.regression.paper_tables import DOMAINS, alpha_of, rows
 from tests.test_minimal import DOMAIN, PROBLEM
 
@@ -123,6 +123,19 @@ attitudes = ["neutral", "neutral"]
 repeat = 1
 memory-limit = 100
 """
+
+
+def test_refinements_are_left_out(tree: Path) -> None:
+    text = FILE.replace('heuristics = ["tdg", "hmax"]', 'without = ["nothing", "forget_facts", "inherit_h+endings"]')
+    runs = [run for run in runs_of(suite(tree, text), Grid()) if run.instance.domain == "trips" and run.repeat == 1]
+    labels = ["state", "state without forget_facts", "state without endings+inherit_h"]
+    assert [run.key[4] for run in runs] == labels * 2
+    assert [name for name in SWITCHES if not getattr(runs[2].settings.switches, name)] == ["inherit_h", "endings"]
+    assert [run.key[4] for run in runs_of("ipc", Grid(without=(("endings",),)), tree)] == ["state without endings"] * 3
+    with pytest.raises(InputError, match=r"'without'.*stubborn_sets.*'sets'"):
+        runs_of(suite(tree, FILE.replace("repeat = 2", 'without = "sets"')), Grid())
+    with pytest.warns(UserWarning, match="left out: plan without endings .* none of the refinements of 'state'"):
+        assert len(runs_of("ipc", Grid(solvers=("plan",), without=((), ("endings",))), tree)) == 3
 
 
 def suite(tree: Path, text: str) -> str:

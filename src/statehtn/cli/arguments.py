@@ -16,7 +16,7 @@ from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.risk import Attitude, Utility, utility_for
-from statehtn.settings import DEFAULT_WEIGHT, HEURISTIC_CHOICES, SOLVERS
+from statehtn.settings import DEFAULT_WEIGHT, HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES
 
 
 class _ShowVersion(argparse.Action):
@@ -103,6 +103,12 @@ def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
         "--branch",
         choices=list(BRANCHES),
         help="of the solver plan: decompose the task of a network with the fewest methods (default), or every one",
+    )
+    search.add_argument(
+        "--without",
+        default=NOTHING,
+        metavar="NAME[+NAME]",
+        help=f"leave out refinements, to see what they are worth; the optimum is the same: {', '.join(SWITCHES)}",
     )
     _add_limits(search)
     output = parser.add_argument_group("output")
@@ -236,6 +242,7 @@ def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:
     several("--solver", choices=list(SOLVERS), help="default: the suite's own, else state")
     several("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of solver and search in 'statehtn plan'")
     several("--search", choices=list(SEARCHES), help="default: astar")
+    several("--without", metavar="NAME[+NAME]", help=f"as of 'statehtn plan'; '{NOTHING}' is the complete search")
     parser.add_argument("--repeat", type=_count, metavar="N", help="do everything so many times, one after the other")
     parser.add_argument(
         "--time-limit",

@@ -6,7 +6,7 @@ import argparse
 import logging
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -27,6 +27,7 @@ from statehtn.experiments.run import Grid, Run, agents_of
 from statehtn.experiments.runner import execute_all
 from statehtn.experiments.suites import runs_of
 from statehtn.experiments.summary import summarise, summary_of
+from statehtn.settings import switches_in
 
 RETRIED = {"errors": "error", "killed": "killed"}
 """What `--retry` takes, and the status of the runs that it means."""
@@ -67,6 +68,7 @@ def _runs(options: argparse.Namespace) -> list[Run]:
         solvers=_unique(options.solver),
         heuristics=_unique(options.heuristic),
         searches=_unique(options.search),
+        without=_unique(map(switches_in, options.without or ())),
         repeat=options.repeat,
         time_limit=options.time_limit,
         memory_limit=options.memory_limit,
@@ -81,7 +83,7 @@ def _runs(options: argparse.Namespace) -> list[Run]:
     return runs
 
 
-def _unique(values: Sequence[Any] | None) -> tuple[Any, ...]:
+def _unique(values: Iterable[Any] | None) -> tuple[Any, ...]:
     return tuple(dict.fromkeys(values or ()))
 
 

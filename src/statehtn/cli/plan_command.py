@@ -20,7 +20,7 @@ from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
 from statehtn.pipeline import Session, solutions
 from statehtn.result import Result
-from statehtn.settings import Settings
+from statehtn.settings import Settings, switches_in
 
 
 def run_plan(options: argparse.Namespace) -> ExitCode:
@@ -37,6 +37,7 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         search=options.search,
         weight=options.weight,
         branch=options.branch,
+        without=switches_in(options.without),
     )
     inputs = (options.domain, options.problem, options.costs)
     output = None if options.output is None else OutputFile(options.output, inputs)

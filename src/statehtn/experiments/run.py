@@ -11,7 +11,7 @@ from statehtn.errors import UsageError
 from statehtn.limits import Limits
 from statehtn.risk import Attitude, Neutral, Utility
 from statehtn.risk import agents_of as combined
-from statehtn.settings import Settings, mismatch
+from statehtn.settings import NOTHING, Settings, mismatch
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Run:
 
     @property
     def key(self) -> tuple[str, ...]:
-        """What tells the run from others: the first columns of its row. A search other than A* goes with the solver."""
+        """What tells the run from others: the first columns of its row."""
         settings = self.settings
         agent = settings.objective
         return (
@@ -44,7 +44,7 @@ class Run:
             self.instance.problem,
             str(agent.attitude),
             "" if agent.alpha is None else repr(agent.alpha),
-            settings.solver if settings.search == "astar" else f"{settings.solver}/{settings.search}",
+            solver_label(settings.solver, settings.search, settings.without),
             settings.heuristic,
             str(self.repeat),
         )
@@ -59,6 +59,7 @@ class Run:
             "solver": settings.solver,
             "heuristic": settings.heuristic,
             "search": settings.search,
+            "without": "+".join(settings.without) or NOTHING,
             "repeat": self.repeat,
             "time_limit": self.time_limit,
             "memory_limit": self.memory_limit,
@@ -67,7 +68,7 @@ class Run:
     def arguments(self) -> list[str]:
         """Return the command line of this run, without the program's name."""
         known = self.to_dict()
-        options = ("attitude", "alpha", "solver", "heuristic", "search", "time_limit", "memory_limit")
+        options = ("attitude", "alpha", "solver", "heuristic", "search", "without", "time_limit", "memory_limit")
         return [
             *("plan", "--json"),
             *(
@@ -89,6 +90,7 @@ class Grid:
         solvers: `state` where none is named.
         heuristics: the own one of solver and search where none is named.
         searches: `astar` where none is named.
+        without: refinements to leave out, as `Settings.of` takes them; the complete search where nothing is said.
         repeat: at least 1; once where it is not said.
         time_limit: seconds for each run, reading included.
         memory_limit: resident memory of each run in MB (10^6 bytes).
@@ -98,6 +100,7 @@ class Grid:
     solvers: Sequence[str] = ()
     heuristics: Sequence[str] = ()
     searches: Sequence[str] = ()
+    without: Sequence[tuple[str, ...]] = ()
     repeat: int | None = None
     time_limit: float | None = None
     memory_limit: float | None = None
@@ -107,9 +110,10 @@ class Grid:
         values = [(getattr(self, field.name), getattr(other, field.name)) for field in fields(self)]
         return Grid(*(theirs if ours is None or ours == () else ours for ours, theirs in values))
 
-    def combinations(self) -> list[tuple[str, str | None, str]]:
-        """Return every solver with every heuristic and search, those included that do not exist."""
-        return list(product(self.solvers or ("state",), self.heuristics or (None,), self.searches or ("astar",)))
+    def combinations(self) -> list[tuple[str, str | None, str, tuple[str, ...]]]:
+        """Return every solver with every heuristic, search and omission, those included that do not exist."""
+        names = self.solvers or ("state",), self.heuristics or (None,), self.searches or ("astar",)
+        return list(product(*names, self.without or ((),)))
 
     def runs(self, instances: Iterable[Instance]) -> list[Run]:
         """Return the runs on these instances: all of them once, then all of them again; none twice.
@@ -119,10 +123,10 @@ class Grid:
         """
         Limits.starting_now(self.time_limit, self.memory_limit)
         wanted = [
-            Settings.of(agent, solver, heuristic, search)
+            Settings.of(agent, solver, heuristic, search, without=without)
             for agent in self.agents or (Neutral(),)
-            for solver, heuristic, search in self.combinations()
-            if not mismatch(solver, heuristic, search)
+            for solver, heuristic, search, without in self.combinations()
+            if not mismatch(solver, heuristic, search, without)
         ]
         runs = [
             Run(instance, settings, repeat, self.time_limit, self.memory_limit)
@@ -130,6 +134,12 @@ class Grid:
             for settings in wanted
         ]
         return list(dict.fromkeys(runs))
+
+
+def solver_label(solver: str, search: str, without: Sequence[str]) -> str:
+    """Return the solver as the table of results has it; a search other than A*, and what it lacks, go with it."""
+    lacks = f" without {'+'.join(without)}" if without else ""
+    return f"{solver}{'' if search == 'astar' else f'/{search}'}{lacks}"
 
 
 def agents_of(attitudes: Sequence[str], alphas: Sequence[float]) -> tuple[Utility, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,12 @@ from statehtn.experiments.instances import is_domain
 from statehtn.experiments.run import Grid, Instance, agents_of
 from statehtn.keyed_file import KeyedTable, read_tables
 from statehtn.risk import Attitude
-from statehtn.settings import HEURISTIC_CHOICES, SOLVERS
+from statehtn.settings import HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES, switches_in
 
 Part = tuple[Grid, list[Instance]]
 """Problems, and what they are run with."""
 AGENT_KEYS = ("attitudes", "alphas")
-GRID_KEYS = (*AGENT_KEYS, "solvers", "heuristics", "searches", "repeat", "time-limit", "memory-limit")
+GRID_KEYS = (*AGENT_KEYS, "solvers", "heuristics", "searches", "without", "repeat", "time-limit", "memory-limit")
 """Keys of the whole file, and of each `[[runs]]`, whose values count there instead."""
 RUNS_KEYS = ("domain", "problems", "name", *GRID_KEYS)
 
@@ -55,6 +56,7 @@ def _part(file: Path, common: Mapping[str, Any], own: Mapping[str, Any], number:
         solvers=table.names("solvers", SOLVERS),
         heuristics=table.names("heuristics", HEURISTIC_CHOICES),
         searches=table.names("searches", SEARCHES),
+        without=table.omissions("without"),
         repeat=table.repeat(),
         time_limit=table.positive("time-limit"),
         memory_limit=table.positive("memory-limit"),
@@ -108,6 +110,13 @@ class _Table(KeyedTable):
             if name not in known:
                 self.complain(key, f"some of {', '.join(known)}", name)
         return list(dict.fromkeys(names))
+
+    def omissions(self, key: str) -> list[tuple[str, ...]]:
+        omissions = list(map(switches_in, self.texts(key))) if key in self.values else []
+        for name in chain.from_iterable(omissions):
+            if name not in SWITCHES:
+                self.complain(key, f"'{NOTHING}', or some of {', '.join(SWITCHES)} joined by +", name)
+        return list(dict.fromkeys(omissions))
 
     def alphas(self) -> list[float]:
         value = self.values.get("alphas", [])

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import find_instances
-from statehtn.experiments.run import Grid, Instance, Run
+from statehtn.experiments.run import Grid, Instance, Run, solver_label
 from statehtn.experiments.suite_file import Part, read_suite
 from statehtn.risk import Neutral, agents_of
 from statehtn.settings import SOLVERS, mismatch
@@ -150,9 +150,9 @@ def _warn_of_missing(grids: Sequence[Grid]) -> None:
     """
     texts = {}
     for grid in grids:
-        for solver, heuristic, search in grid.combinations():
-            if reason := mismatch(solver, heuristic, search):
-                settings = f"{solver if search == 'astar' else f'{solver}/{search}'} {heuristic or ''}".strip()
+        for solver, heuristic, search, without in grid.combinations():
+            if reason := mismatch(solver, heuristic, search, without):
+                settings = f"{solver_label(solver, search, without)} {heuristic or ''}".strip()
                 texts[settings] = reason
         if all(mismatch(*names) for names in grid.combinations()):
             raise UsageError(f"none of these settings exists: {', '.join(texts)}; {'; '.join(set(texts.values()))}")
