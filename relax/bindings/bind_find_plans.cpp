@@ -58,7 +58,7 @@ public:
             bound = relax::add_bounds(bound, bounds_[task]);
         }
         if (!ordering) {
-            return heuristic_->evaluate({state, tasks, bound});
+            return heuristic_->evaluate({state, tasks, false, {}, bound});
         }
         relax::OrderedTasks network;
         network.reset(tasks.size());
@@ -72,7 +72,7 @@ public:
             relax::TotallyOrderedNetworks::fits(problem_) &&
             ordering->size() == tasks.size() * (tasks.size() - 1) / 2 &&
             std::ranges::all_of(*ordering, [](const auto& pair) { return pair.first < pair.second; });
-        return heuristic_->evaluate({state, tasks, bound, stands_in_order, network.predecessors});
+        return heuristic_->evaluate({state, tasks, stands_in_order, network.predecessors, bound});
     }
 
     std::size_t model_bytes() const { return heuristic_->model_bytes(); }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "relax/analysis/tdg_bound.hpp"
+#include "relax/base/cost.hpp"
 
 namespace relax {
 
@@ -16,7 +16,6 @@ ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std
     }
     form_.assign(form_words(count), 0);
     work_ += 2 * form_.size();
-    Cost bound = 0;
     std::uint32_t unconstrained = 0;
     for (std::size_t index = 0; index < count; ++index) {
         bool is_unconstrained = true;
@@ -27,7 +26,6 @@ ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std
         unconstrained += is_unconstrained ? 1 : 0;
         const TaskId task = draft.tasks[order[index]];
         form_[count * words + index / 2] |= std::uint64_t{task} << (index % 2 * 32);
-        bound = add_bounds(bound, task_bounds_[task]);
     }
     if (order_of_it != nullptr) {
         order_of_it->assign(order.begin(), order.end());
@@ -42,11 +40,19 @@ ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std
     const auto id = static_cast<ComponentId>(records_.size());
     const auto run = words_.allocate(form_.size());
     std::copy(form_.begin(), form_.end(), run.begin());
-    records_.push_back({run.data(), bound, static_cast<std::uint32_t>(count), unconstrained});
+    records_.push_back({run.data(), static_cast<std::uint32_t>(count), unconstrained});
     table_.add(hash, id, [this](ComponentId other) {
         return hash_values(std::span(records_[other].words, form_words(records_[other].size)));
     });
     return id;
+}
+
+Cost NetworkComponents::bound(ComponentId id, std::span<const Cost> task_bounds) const {
+    Cost sum = 0;
+    for (std::uint32_t index = 0; index < size(id); ++index) {
+        sum = add_bounds(sum, task_bounds[task(id, index)]);
+    }
+    return sum;
 }
 
 }  // namespace relax

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "relax/analysis/tdg_bound.hpp"
+#include "relax/base/cost.hpp"
 
 namespace relax {
 
@@ -16,9 +16,8 @@ std::uint64_t hash_step(ComponentId component, std::uint32_t index, MethodId met
 
 }  // namespace
 
-PartiallyOrderedNetworks::PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds,
-                                                   Limits& limits)
-    : problem_(problem), limits_(limits), components_(std::move(task_bounds), limits) {}
+PartiallyOrderedNetworks::PartiallyOrderedNetworks(const GroundProblem& problem, Limits& limits)
+    : problem_(problem), limits_(limits), components_(limits) {}
 
 NetworkId PartiallyOrderedNetworks::initial() {
     draft_.reset(1);
@@ -229,15 +228,26 @@ void PartiallyOrderedNetworks::trace(NetworkId network, std::size_t changed, std
     }
 }
 
+Cost PartiallyOrderedNetworks::bound(NetworkId network, std::span<const Cost> task_bounds,
+                                     const FlatArray<Cost>& /*by_network*/, FlatArray<Cost>& by_component) const {
+    Cost sum = 0;
+    for (const ComponentId id : components(network)) {
+        while (id >= by_component.size()) {
+            by_component.push_back(components_.bound(static_cast<ComponentId>(by_component.size()), task_bounds));
+        }
+        sum = add_bounds(sum, by_component[id]);
+    }
+    return sum;
+}
+
 NetworkId PartiallyOrderedNetworks::intern(std::span<const ComponentId> list) {
     const std::uint64_t hash = hash_values(list);
     const auto known = table_.find(hash, [&](NetworkId id) { return std::ranges::equal(list, components(id)); });
     if (known) {
         return *known;
     }
-    Record record{nullptr, 0, static_cast<std::uint32_t>(list.size()), 0};
+    Record record{nullptr, static_cast<std::uint32_t>(list.size()), 0};
     for (const ComponentId id : list) {
-        record.bound = add_bounds(record.bound, components_.bound(id));
         record.size += components_.size(id);
     }
     const auto run = lists_.allocate(list.size());

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "relax/analysis/tdg_bound.hpp"
+#include "relax/base/cost.hpp"
 
 namespace relax {
 
@@ -12,13 +12,12 @@ std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_
 
 }  // namespace
 
-TotallyOrderedNetworks::TotallyOrderedNetworks(const AnalysedProblem& problem, std::vector<Cost> task_bounds,
-                                               bool use_macros, Limits& limits)
-    : problem_(problem), task_bounds_(std::move(task_bounds)), sequences_(problem.sequences(limits)) {
+TotallyOrderedNetworks::TotallyOrderedNetworks(const AnalysedProblem& problem, bool use_macros, Limits& limits)
+    : problem_(problem), sequences_(problem.sequences(limits)) {
     if (use_macros) {
         macros_.emplace(problem, limits);
     }
-    cells_.push_back({0, 0, kEmpty, 0, 0});
+    cells_.push_back({0, kEmpty, 0, 0});
     forms_.push_back({0, 0});
 }
 
@@ -106,8 +105,7 @@ NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
         return *known;
     }
     const auto id = static_cast<NetworkId>(cells_.size());
-    cells_.push_back({add_bounds(cells_[rest].bound, task_bounds_[first]), first, rest, cells_[rest].size + 1,
-                      macros_ ? form_of(first, cells_[rest].form) : 0});
+    cells_.push_back({first, rest, cells_[rest].size + 1, macros_ ? form_of(first, cells_[rest].form) : 0});
     table_.add(hash, id, [this](NetworkId other) { return hash_cell(cells_[other].first, cells_[other].rest); });
     return id;
 }

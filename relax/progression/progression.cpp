@@ -4,8 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "relax/base/cost.hpp"
-
 namespace relax {
 
 namespace {
@@ -34,18 +32,17 @@ std::optional<ActionId> first_action(const AnalysedProblem& problem, MethodId me
 
 }  // namespace
 
-Progression::Progression(const AnalysedProblem& problem, Prices prices, std::vector<Cost> task_bounds,
+Progression::Progression(const AnalysedProblem& problem, const std::vector<bool>& free_actions,
                          const ProgressionOptions& options, Limits& limits)
     : problem_(problem),
-      prices_(std::move(prices)),
       transition_(problem),
       states_(transition_.word_count()),
-      networks_(make_task_networks(problem, std::move(task_bounds), options.use_macros, options.in_sequence, limits)),
+      networks_(make_task_networks(problem, options.use_macros, options.in_sequence, limits)),
       branching_(problem),
       next_(transition_.word_count()),
       waits_until_due_(options.when_due && options.skip_dead_methods) {
     for (const ActionId action : problem.actions()) {
-        is_executed_at_once_.push_back(costs_and_changes_nothing(action));
+        is_executed_at_once_.push_back(free_actions[action] && transition_.has_no_effect(action));
     }
     if (options.stubborn_sets) {
         stubborn_set_.emplace(problem, limits);
@@ -177,29 +174,6 @@ void Progression::choose_actions(StateId state, NetworkId network) {
     }
 }
 
-void Progression::execute_at_once_only(const std::vector<bool>& actions) {
-    for (const ActionId action : problem_.actions()) {
-        is_executed_at_once_[action] = is_executed_at_once_[action] && actions[action];
-    }
-}
-
-// Whether the action changes nothing, and costs nothing whatever the state is.
-bool Progression::costs_and_changes_nothing(ActionId action) const {
-    return transition_.has_no_effect(action) && prices_.actions[action] == 0 &&
-           std::ranges::all_of(problem_.cost_parts[action],
-                               [this](CostPartId part) { return prices_.parts[part] == 0; });
-}
-
-Cost Progression::cost(ActionId action, std::span<const std::uint64_t> state) const {
-    Cost sum = prices_.actions[action];
-    for (const CostPartId part : problem_.cost_parts[action]) {
-        if (transition_.is_due(part, state)) {
-            sum = add_bounds(sum, prices_.parts[part]);
-        }
-    }
-    return sum;
-}
-
 void Progression::find_live_methods(StateId state) {
     const bool comes_next = !first_action_.empty() && unconstrained_.size() == 1;
     for (const MethodId method : problem_.methods_of(compound_->task)) {
@@ -213,12 +187,12 @@ void Progression::find_live_methods(StateId state) {
 NodeView Progression::view(StateId state, NetworkId network) {
     if (!networks_->are_totally_ordered()) {
         ordered_tasks(network);
-        return {states_[state], ordered_tasks_.tasks, networks_->bound(network), false, ordered_tasks_.predecessors};
+        return {states_[state], ordered_tasks_.tasks, false, ordered_tasks_.predecessors};
     }
     ordered_tasks_.tasks.clear();
     networks_->tasks(network, ordered_tasks_.tasks);
     work_ += ordered_tasks_.tasks.size();
-    return {states_[state], ordered_tasks_.tasks, networks_->bound(network), true, {}};
+    return {states_[state], ordered_tasks_.tasks, true};
 }
 
 // The first one of the best unconstrained compound tasks.
@@ -243,13 +217,20 @@ Successor Progression::decompose(StateId state, NetworkId network, const Occurre
         std::ranges::copy(states_[state], next_.begin());
         state = keep_relevant(next);
     }
-    return {state, next, 0, {occurrence.index, method}};
+    return {state, next, {occurrence.index, method}, std::nullopt, {}};
 }
 
 Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {
-    transition_.apply(occurrence.task, states_[state], next_);
+    const ActionId action = occurrence.task;
+    std::vector<CostPartId> due_parts;
+    for (const CostPartId part : problem_.cost_parts[action]) {
+        if (transition_.is_due(part, states_[state])) {
+            due_parts.push_back(part);
+        }
+    }
+    transition_.apply(action, states_[state], next_);
     const NetworkId next = networks_->progress(network, occurrence.index);
-    return {keep_relevant(next), next, cost(occurrence.task, states_[state]), {occurrence.index, std::nullopt}};
+    return {keep_relevant(next), next, {occurrence.index, std::nullopt}, action, std::move(due_parts)};
 }
 
 // Returns the state of the facts in `next_`, as far as they matter to the network.

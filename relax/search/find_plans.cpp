@@ -31,7 +31,8 @@ FindPlans::FindPlans(const PricedProblem& priced, const SearchOptions& options, 
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(priced.problem, priced.prices, priced.task_bounds(limits), progression_options(options), limits),
+      progression_(priced.problem, priced.free_actions(), progression_options(options), limits),
+      bounds_(progression_.networks(), priced.task_bounds(limits)),
       nodes_(progression_.networks()) {
     if (options.endings && !progression_.networks().are_totally_ordered()) {
         ending_.emplace(problem_, limits);
@@ -195,7 +196,9 @@ bool FindPlans::evaluate(NodeId id, Cost f) {
 // A node whose evaluation is cut short stays open.
 std::optional<Cost> FindPlans::ask(SelectiveHeuristic& heuristic, NodeId id) {
     try {
-        return heuristic->evaluate(progression_.view(nodes_[id].state, nodes_[id].network));
+        NodeView view = progression_.view(nodes_[id].state, nodes_[id].network);
+        view.tdg_bound = bounds_[nodes_[id].network];
+        return heuristic->evaluate(view);
     } catch (const Stopped&) {
         push(id);
         is_expanding_ = false;

@@ -18,9 +18,10 @@ constexpr Cost kLastPriority = kMostCost - 1;  // of what is still worth a look
 // tasks.
 std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
-    const Cost g = add_bounds(nodes_[parent].g, successor.cost);
+    const Cost cost = priced_.cost(successor.action, successor.due_parts);
+    const Cost g = add_bounds(nodes_[parent].g, cost);
     const TaskNetworks& networks = progression_.networks();
-    if (networks.is_impossible(successor.network) || is_beyond(g, networks.bound(successor.network))) {
+    if (networks.is_impossible(successor.network) || is_beyond(g, bounds_[successor.network])) {
         return std::nullopt;
     }
     const auto known = nodes_.find(successor.state, successor.network);
@@ -28,7 +29,8 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
         return std::nullopt;
     }
     const NodeId id =
-        known ? nodes_.replace(*known, successor.network) : nodes_.add(successor.state, successor.network);
+        known ? nodes_.replace(*known, successor.network, bounds_[successor.network] - bounds_[nodes_[*known].network])
+              : nodes_.add(successor.state, successor.network);
     SearchNode& node = nodes_[id];
     node.reach(parent, g, successor.step);
     if (networks.is_empty(node.network)) {
@@ -38,7 +40,7 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
         }
         return std::nullopt;
     }
-    node.h = std::max(node.h, cheap_bound(nodes_[parent], successor));
+    node.h = std::max(node.h, cheap_bound(nodes_[parent], cost, successor.network));
     return cannot_improve(node) ? std::nullopt : std::optional(id);
 }
 
@@ -47,18 +49,18 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
 // would lead back to where they started.
 bool FindPlans::is_as_good(const SearchNode& known, Cost g, NetworkId network) {
     const TaskNetworks& networks = progression_.networks();
-    const Cost cost_known = known.g + networks.bound(known.network);
-    const Cost cost = g + networks.bound(network);
+    const Cost cost_known = known.g + bounds_[known.network];
+    const Cost cost = g + bounds_[network];
     return cost_known < cost || (cost_known == cost && networks.size(known.network) <= networks.size(network));
 }
 
-Cost FindPlans::cheap_bound(const SearchNode& parent, const Successor& successor) {
+Cost FindPlans::cheap_bound(const SearchNode& parent, Cost cost, NetworkId network) {
     Cost bound = 0;
     if (options_.tdg_bound && options_.heuristic != HeuristicKind::Blind) {
-        bound = progression_.networks().bound(successor.network);
+        bound = bounds_[network];
     }
     if (options_.inherit_h) {
-        bound = std::max(bound, parent.h - successor.cost);
+        bound = std::max(bound, parent.h - cost);
     }
     return bound;
 }

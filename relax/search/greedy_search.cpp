@@ -27,7 +27,8 @@ GreedySearch::GreedySearch(const PricedProblem& priced, const SearchOptions& opt
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(priced.problem, priced.prices, priced.task_bounds(limits), options, limits),
+      progression_(priced.problem, priced.free_actions(), options, limits),
+      bounds_(progression_.networks(), priced.task_bounds(limits)),
       heuristic_(make_heuristic(options.heuristic, priced, limits)),
       nodes_(progression_.networks()),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
@@ -85,7 +86,7 @@ SearchResult GreedySearch::result() {
 // before that.
 std::optional<StopReason> GreedySearch::search(std::uint64_t most_work) {
     if (nodes_.size() == 0) {
-        proven_ = progression_.networks().bound(progression_.initial_network());
+        proven_ = bounds_[progression_.initial_network()];
         open_.push(nodes_.add(progression_.initial_state(), progression_.initial_network()), 0, 0, 1);
     }
     while ((!open_.is_empty() || !preferred_.is_empty()) && statistics_.evaluated < most_evaluations_) {
@@ -166,7 +167,9 @@ std::optional<NodeId> GreedySearch::follow(NodeId node) {
 std::optional<Cost> GreedySearch::evaluate(NodeId id) {
     const SearchNode& node = nodes_[id];
     ++statistics_.evaluated;
-    const auto h = heuristic_->evaluate(progression_.view(node.state, node.network));
+    NodeView view = progression_.view(node.state, node.network);
+    view.tdg_bound = bounds_[node.network];
+    const auto h = heuristic_->evaluate(view);
     statistics_.cuts = heuristic_->rounds();
     return h;
 }
@@ -175,7 +178,7 @@ std::optional<Cost> GreedySearch::evaluate(NodeId id) {
 // tasks.
 std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
-    const Cost g = add_bounds(nodes_[parent].g, successor.cost);
+    const Cost g = add_bounds(nodes_[parent].g, priced_.cost(successor.action, successor.due_parts));
     if (g >= kMostCost) {
         has_overflowed_ = true;
         return std::nullopt;
@@ -188,8 +191,7 @@ std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& suc
         }
         return std::nullopt;
     }
-    if (options_.upper_bound &&
-        add_bounds(g, progression_.networks().bound(successor.network)) >= *options_.upper_bound) {
+    if (options_.upper_bound && add_bounds(g, bounds_[successor.network]) >= *options_.upper_bound) {
         return std::nullopt;
     }
     const NodeId id = nodes_.add(successor.state, successor.network);

@@ -10,7 +10,7 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
     ++call_;
     open_ = {};
     met_.clear();
-    reach(0, 0, {progression_.initial_state(), network, 0, {}});
+    reach(0, 0, {progression_.initial_state(), network, {}, std::nullopt, {}});
     while (!open_.is_empty()) {
         stop = limits_.check();
         if (stop) {
@@ -26,7 +26,7 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
         }
         progression_.expand(nodes_[here].state, nodes_[here].network, successors_);
         for (const Successor& successor : successors_) {
-            reach(here, add_bounds(nodes_[here].g, successor.cost), successor);
+            reach(here, add_bounds(nodes_[here].g, priced_.cost(successor.action, successor.due_parts)), successor);
         }
     }
     for (const NodeId node : met_) {
@@ -52,7 +52,7 @@ void Linearisation::reach(NodeId from, Cost g, const Successor& successor) {
         met_.push_back(id);
     }
     nodes_[id].reach(met_.size() == 1 ? id : from, g, successor.step);
-    const Cost h = progression_.networks().bound(successor.network);
+    const Cost h = bounds_[successor.network];
     open_.push(id, add_bounds(g, h), h, progression_.networks().size(successor.network));
 }
 

@@ -45,8 +45,9 @@ PlanBased::PlanBased(const PricedProblem& priced, const SearchOptions& options, 
       statistics_(statistics),
       is_choice_(find_choices(priced.problem)),
       task_bounds_(make_bounds(priced, is_choice_, options.heuristic, limits)),
-      progression_(priced.problem, priced.prices, task_bounds_, options, limits),
-      linearisation_(progression_, limits),
+      progression_(priced.problem, priced.free_actions(), options, limits),
+      bounds_(progression_.networks(), task_bounds_),
+      linearisation_(priced, progression_, bounds_, limits),
       open_preconditions_(priced.problem, limits) {}
 
 SearchResult PlanBased::run() {
@@ -150,7 +151,7 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
         return;
     }
     is_known_[network] = true;
-    const Cost f = progression_.networks().bound(network);
+    const Cost f = bounds_[network];
     look_at(network);
     Cost h = 0;
     for (const Occurrence& occurrence : compounds_) {

@@ -26,7 +26,6 @@ namespace {
 void walk(const PricedProblem& priced, Progression& progression, std::span<const SearchStep> steps, Limits& limits,
           SearchResult& result) {
     const GroundProblem& problem = priced.problem;
-    const Prices& prices = priced.prices;
     TaskNetworks& networks = progression.networks();
     NetworkId network = progression.initial_network();
     const StateTransition transition(problem);
@@ -46,16 +45,15 @@ void walk(const PricedProblem& priced, Progression& progression, std::span<const
         } else {
             result.plan.push_back(here);
             const TaskId action = result.decomposition[here].task;
-            result.cost = add_bounds(*result.cost, prices.actions[action]);
-            std::uint32_t due = 0;
+            const std::size_t settled = result.due_parts.size();
             for (const CostPartId part : problem.cost_parts[action]) {
                 if (transition.is_due(part, state)) {
-                    result.cost = add_bounds(*result.cost, prices.parts[part]);
                     result.due_parts.push_back(part);
-                    ++due;
                 }
             }
-            result.due_part_counts.push_back(due);
+            const auto due_parts = std::span(result.due_parts).subspan(settled);
+            result.due_part_counts.push_back(static_cast<std::uint32_t>(due_parts.size()));
+            result.cost = add_bounds(*result.cost, priced.cost(action, due_parts));
             transition.apply(action, state, next);
             state.swap(next);
             network = networks.progress(network, step.occurrence, &origins);

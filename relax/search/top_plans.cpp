@@ -13,12 +13,14 @@ namespace {
 
 std::uint64_t hash_of(std::uint32_t high, std::uint32_t low) { return mix((std::uint64_t{high} << 32) | low); }
 
-std::vector<bool> without_name(std::span<const std::optional<ActionName>> names) {
-    std::vector<bool> result;
-    for (const auto& name : names) {
-        result.push_back(!name);
+// Between sequences the order of named actions makes a difference: they are not executed at once.
+std::vector<bool> free_actions(const PricedProblem& priced, std::span<const std::optional<ActionName>> names,
+                               Distinct distinct) {
+    std::vector<bool> is_free = priced.free_actions();
+    for (std::size_t action = 0; action < names.size(); ++action) {
+        is_free[action] = is_free[action] && (distinct == Distinct::Multiset || !names[action]);
     }
-    return result;
+    return is_free;
 }
 
 // Stubborn sets leave out orders of the same actions.
@@ -38,12 +40,9 @@ TopPlans::TopPlans(const PricedProblem& priced, std::vector<std::optional<Action
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(priced.problem, priced.prices, priced.task_bounds(limits), allowed(options), limits),
-      heuristic_(make_heuristic(options.search.heuristic, priced, limits)) {
-    if (options_.distinct == Distinct::Sequence) {
-        progression_.execute_at_once_only(without_name(names_));
-    }
-}
+      progression_(priced.problem, free_actions(priced, names_, options.distinct), allowed(options), limits),
+      bounds_(progression_.networks(), priced.task_bounds(limits)),
+      heuristic_(make_heuristic(options.search.heuristic, priced, limits)) {}
 
 TopPlansResult top_plans(const PricedProblem& priced, std::vector<std::optional<ActionName>> names,
                          const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics) {
@@ -124,7 +123,9 @@ std::optional<StopReason> TopPlans::search() {
 // Ask the heuristic, if it has not been asked about this node. False if it is a dead end.
 bool TopPlans::evaluate(Node& node) {
     if (!node.is_evaluated) {
-        const auto h = heuristic_->evaluate(progression_.view(node.state, node.network));
+        NodeView view = progression_.view(node.state, node.network);
+        view.tdg_bound = bounds_[node.network];
+        const auto h = heuristic_->evaluate(view);
         ++statistics_.evaluated;
         statistics_.dead_ends += h ? 0 : 1;
         statistics_.cuts = heuristic_->rounds();
@@ -138,8 +139,6 @@ void TopPlans::expand(LabelId id) {
     labels_[id].is_expanded = true;
     ++statistics_.expanded;
     const Node& node = nodes_[labels_[id].node];
-    tasks_.clear();
-    progression_.networks().tasks(node.network, tasks_);
     progression_.expand(node.state, node.network, successors_);
     for (const Successor& successor : successors_) {
         generate(id, successor);
@@ -148,15 +147,16 @@ void TopPlans::expand(LabelId id) {
 
 void TopPlans::generate(LabelId parent, const Successor& successor) {
     ++statistics_.generated;
-    const Cost g = add_bounds(labels_[parent].g, successor.cost);
+    const Cost cost = priced_.cost(successor.action, successor.due_parts);
+    const Cost g = add_bounds(labels_[parent].g, cost);
     const NodeId node = find_node(successor.state, successor.network);
-    nodes_[node].h = std::max(nodes_[node].h, cheap_bound(nodes_[labels_[parent].node], successor));
+    nodes_[node].h = std::max(nodes_[node].h, cheap_bound(nodes_[labels_[parent].node], cost, successor.network));
     if (const Cost f = add_bounds(g, nodes_[node].h); f >= cutoff()) {
         has_pruned_ = has_pruned_ || f < kInfinity;
         has_overflowed_ = has_overflowed_ || f == kMostCost;
         return;
     }
-    const ActionListId actions = list_after(parent, successor.step);
+    const ActionListId actions = list_after(parent, successor.action);
     const auto known = find_label(node, actions);
     if (known && labels_[*known].g <= g) {
         return;
@@ -231,23 +231,23 @@ void TopPlans::note_proven(Cost bound) {
 // The priority from which nothing that is open is worth a look.
 Cost TopPlans::cutoff() const { return plans_.size() < options_.count ? kMostCost : labels_[plans_.back()].g; }
 
-// The list of the actions after a step. `tasks_` are those of the label's network.
-ActionListId TopPlans::list_after(LabelId label, const SearchStep& step) {
+// The list of the actions after a step, which executed one or none.
+ActionListId TopPlans::list_after(LabelId label, std::optional<ActionId> action) {
     const ActionListId before = labels_[label].actions;
-    if (step.method || !names_[tasks_[step.occurrence]]) {
+    if (!action || !names_[*action]) {
         return before;
     }
-    const ActionName name = *names_[tasks_[step.occurrence]];
+    const ActionName name = *names_[*action];
     return options_.distinct == Distinct::Sequence ? lists_.append(before, name) : lists_.insert(before, name);
 }
 
-Cost TopPlans::cheap_bound(const Node& parent, const Successor& successor) {
+Cost TopPlans::cheap_bound(const Node& parent, Cost cost, NetworkId network) {
     Cost bound = 0;
     if (options_.search.tdg_bound && options_.search.heuristic != HeuristicKind::Blind) {
-        bound = progression_.networks().bound(successor.network);
+        bound = bounds_[network];
     }
     if (options_.search.inherit_h) {
-        bound = std::max(bound, parent.h - successor.cost);
+        bound = std::max(bound, parent.h - cost);
     }
     return bound;
 }

@@ -1,6 +1,7 @@
 #ifndef RELAX_ANALYSIS_PRICED_PROBLEM_HPP
 #define RELAX_ANALYSIS_PRICED_PROBLEM_HPP
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "relax/analysis/analysed_problem.hpp"
 #include "relax/analysis/prices.hpp"
 #include "relax/analysis/relaxed_model.hpp"
+#include "relax/base/cost.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/on_demand.hpp"
@@ -25,6 +27,16 @@ public:
     const AnalysedProblem& problem;
     const Prices prices;
 
+    // What it costs to execute an action where these parts of its cost are due; nothing where there is no action.
+    Cost cost(std::optional<ActionId> action, std::span<const CostPartId> due_parts) const {
+        Cost sum = action ? prices.actions[*action] : 0;
+        for (const CostPartId part : due_parts) {
+            sum = add_bounds(sum, prices.parts[part]);
+        }
+        return sum;
+    }
+    // By ActionId: those that cost nothing, whatever the state is.
+    std::vector<bool> free_actions() const;
     // Prices for lower bounds: see `shift_costs`.
     const Prices& shifted_prices(Limits& limits) const;
     // By TaskId, from the shifted prices: see `tdg_bound`.

@@ -20,9 +20,7 @@ using ComponentId = std::uint32_t;
 // always meet in one form is not promised, and nothing but work depends on it.
 class NetworkComponents {
 public:
-    // `task_bounds`: by TaskId, see tdg_bound.
-    NetworkComponents(std::vector<Cost> task_bounds, Limits& limits)
-        : task_bounds_(std::move(task_bounds)), canonical_(limits) {}
+    explicit NetworkComponents(Limits& limits) : canonical_(limits) {}
 
     // Bring a component into its canonical form and keep it. `order`, where given, gets for each index there the one in
     // `draft`. Throws Stopped.
@@ -34,8 +32,8 @@ public:
     std::uint32_t size(ComponentId id) const { return records_[id].size; }
     // How many have no predecessors: they come first.
     std::uint32_t unconstrained(ComponentId id) const { return records_[id].unconstrained; }
-    // The sum of the tasks' decomposition-graph bounds.
-    Cost bound(ComponentId id) const { return records_[id].bound; }
+    // The sum of the tasks' bounds.
+    Cost bound(ComponentId id, std::span<const Cost> task_bounds) const;
     TaskId task(ComponentId id, std::uint32_t index) const {
         const Record& record = records_[id];
         const std::uint64_t* tasks = record.words + record.size * words_for(record.size);
@@ -51,14 +49,12 @@ private:
     // `words`: first the predecessor rows, then the tasks, two to a word.
     struct Record {
         const std::uint64_t* words;
-        Cost bound;
         std::uint32_t size;
         std::uint32_t unconstrained;
     };
 
     static std::size_t form_words(std::size_t count) { return count * words_for(count) + (count + 1) / 2; }
 
-    std::vector<Cost> task_bounds_;
     RunArena<std::uint64_t> words_;
     SegmentedArray<Record> records_;
     IdTable table_;

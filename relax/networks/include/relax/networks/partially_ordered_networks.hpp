@@ -19,7 +19,7 @@ namespace relax {
 // index counts through the components in the order of their numbers.
 class PartiallyOrderedNetworks final : public TaskNetworks {
 public:
-    PartiallyOrderedNetworks(const GroundProblem& problem, std::vector<Cost> task_bounds, Limits& limits);
+    PartiallyOrderedNetworks(const GroundProblem& problem, Limits& limits);
 
     NetworkId initial() override;
     void unconstrained(NetworkId network, std::vector<Occurrence>& occurrences) const override;
@@ -28,15 +28,15 @@ public:
     void ordered_tasks(NetworkId network, OrderedTasks& ordered) const override;
     NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) override;
     NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
-    Cost bound(NetworkId network) const override { return records_[network].bound; }
+    Cost bound(NetworkId network, std::span<const Cost> task_bounds, const FlatArray<Cost>& by_network,
+               FlatArray<Cost>& by_component) const override;
     std::uint32_t size(NetworkId network) const override { return records_[network].size; }
     std::uint64_t work() const override { return work_ + components_.work(); }
 
 private:
     struct Record {
         const ComponentId* components;  // sorted
-        Cost bound;
-        std::uint32_t count;  // of components
+        std::uint32_t count;            // of components
         std::uint32_t size;
     };
     // What becomes of a component by a step.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "relax/analysis/analysed_problem.hpp"
+#include "relax/base/flat_array.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/networks/ordered_tasks.hpp"
@@ -53,8 +54,10 @@ public:
     // Replace an occurrence, constrained or not, by the method's subtasks.
     virtual NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method,
                                 std::vector<Origin>* origins = nullptr) = 0;
-    // The sum of the tasks' decomposition-graph bounds.
-    virtual Cost bound(NetworkId network) const = 0;
+    // The sum of the tasks' bounds, given those of all networks made before. Components, if networks have any, are
+    // added to `by_component`. (See NetworkBounds.)
+    virtual Cost bound(NetworkId network, std::span<const Cost> task_bounds, const FlatArray<Cost>& by_network,
+                       FlatArray<Cost>& by_component) const = 0;
     virtual std::uint32_t size(NetworkId network) const = 0;
     // Networks of one form can be accomplished in the same ways but for actions that come in another network's place:
     // from there the bounds, and so the costs to come, differ by what these cost.
@@ -69,9 +72,9 @@ public:
     bool is_empty(NetworkId network) const { return size(network) == 0; }
 };
 
-// `task_bounds`: by TaskId, see tdg_bound. `in_sequence`: lists even where methods do not order their subtasks totally.
-std::unique_ptr<TaskNetworks> make_task_networks(const AnalysedProblem& problem, std::vector<Cost> task_bounds,
-                                                 bool use_macros, bool in_sequence, Limits& limits);
+// `in_sequence`: lists even where methods do not order their subtasks totally.
+std::unique_ptr<TaskNetworks> make_task_networks(const AnalysedProblem& problem, bool use_macros, bool in_sequence,
+                                                 Limits& limits);
 
 }  // namespace relax
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "relax/analysis/analysed_problem.hpp"
+#include "relax/base/cost.hpp"
 #include "relax/base/id_table.hpp"
 #include "relax/base/rows.hpp"
 #include "relax/base/segmented_array.hpp"
@@ -19,8 +20,7 @@ class TotallyOrderedNetworks final : public TaskNetworks {
 public:
     // `use_macros`: whether forms are wanted. Methods that do not order their subtasks totally are taken as if they
     // did.
-    TotallyOrderedNetworks(const AnalysedProblem& problem, std::vector<Cost> task_bounds, bool use_macros,
-                           Limits& limits);
+    TotallyOrderedNetworks(const AnalysedProblem& problem, bool use_macros, Limits& limits);
 
     // Every method orders its subtasks totally.
     static bool fits(const GroundProblem& problem);
@@ -32,14 +32,17 @@ public:
     void ordered_tasks(NetworkId network, OrderedTasks& ordered) const override;
     NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) override;
     NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
-    Cost bound(NetworkId network) const override { return cells_[network].bound; }
+    Cost bound(NetworkId network, std::span<const Cost> task_bounds, const FlatArray<Cost>& by_network,
+               FlatArray<Cost>& /*by_component*/) const override {
+        const Cell& cell = cells_[network];
+        return network == kEmpty ? 0 : add_bounds(by_network[cell.rest], task_bounds[cell.first]);
+    }
     std::uint32_t size(NetworkId network) const override { return cells_[network].size; }
     FormId form(NetworkId network) const override { return macros_ ? cells_[network].form : network; }
     bool is_impossible(NetworkId network) const override { return macros_ && cells_[network].form == kImpossible; }
 
 private:
     struct Cell {
-        Cost bound;
         TaskId first;
         NetworkId rest;
         std::uint32_t size;
@@ -58,7 +61,6 @@ private:
     FormId intern_form(std::uint32_t first, FormId rest);
 
     const GroundProblem& problem_;
-    std::vector<Cost> task_bounds_;
     const Rows<std::uint32_t>& sequences_;
     SegmentedArray<Cell> cells_;
     IdTable table_;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "relax/analysis/analysed_problem.hpp"
-#include "relax/analysis/prices.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/networks/node_view.hpp"
@@ -30,8 +29,9 @@ struct SearchStep {
 struct Successor {
     StateId state;
     NetworkId network;
-    Cost cost;
     SearchStep step;
+    std::optional<ActionId> action;     // that was executed; none where a task was decomposed
+    std::vector<CostPartId> due_parts;  // of its cost
 };
 
 struct ProgressionOptions {
@@ -43,7 +43,7 @@ struct ProgressionOptions {
     bool in_sequence = false;       // tasks without an order come in that of the domain: some plans are left out
 };
 
-// Progression over states and task networks; knows nothing of search algorithms.
+// Progression over states and task networks; knows nothing of search algorithms, nor of prices.
 //
 // Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend
 // on the state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to
@@ -56,22 +56,19 @@ class Progression {
 public:
     // All that makes states or networks may throw Stopped.
     //
-    // `task_bounds`: see tdg_bound.
-    Progression(const AnalysedProblem& problem, Prices prices, std::vector<Cost> task_bounds,
+    // `free_actions`: by ActionId, those that certainly cost nothing. Where they change nothing either, they are
+    // executed at once.
+    Progression(const AnalysedProblem& problem, const std::vector<bool>& free_actions,
                 const ProgressionOptions& options, Limits& limits);
 
     StateId initial_state();
     NetworkId initial_network() { return networks_->initial(); }
     // Replace the content of `successors` by the node's successors.
     void expand(StateId state, NetworkId network, std::vector<Successor>& successors);
-    // Of the actions that cost and change nothing, execute at once only those that are named (by ActionId) from now on:
-    // for searches to which the order of the others makes a difference.
-    void execute_at_once_only(const std::vector<bool>& actions);
-
     // The same where there is at most one successor, or one is enough, and that is found with little work. False, and
     // no successors, elsewhere.
     bool expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors);
-    // What heuristics see of a node; valid until the next call.
+    // What heuristics see of a node but for its bound; valid until the next call.
     NodeView view(StateId state, NetworkId network);
 
     // The network's tasks and their order; valid until the next call.
@@ -95,8 +92,6 @@ private:
     void expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors);
     std::optional<Occurrence> compound_to_decompose() const;
     bool is_executed_at_once(TaskId task) const { return problem_.is_primitive(task) && is_executed_at_once_[task]; }
-    bool costs_and_changes_nothing(ActionId action) const;
-    Cost cost(ActionId action, std::span<const std::uint64_t> state) const;
     void find_live_methods(StateId state);
     void choose_actions(StateId state, NetworkId network);
     Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
@@ -104,7 +99,6 @@ private:
     Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
 
     const GroundProblem& problem_;
-    Prices prices_;
     StateTransition transition_;
     std::vector<bool> is_executed_at_once_;  // by ActionId: costs and changes nothing in any state, and comes at once
     StateRegistry states_;

@@ -12,6 +12,7 @@
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
 #include "relax/heuristics/selective_heuristic.hpp"
+#include "relax/networks/network_bounds.hpp"
 #include "relax/progression/ending.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/forced_cycle.hpp"
@@ -64,7 +65,7 @@ private:
     std::optional<NodeId> follow(NodeId id);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
     bool is_as_good(const SearchNode& known, Cost g, NetworkId network);
-    Cost cheap_bound(const SearchNode& parent, const Successor& successor);
+    Cost cheap_bound(const SearchNode& parent, Cost cost, NetworkId network);
     Cost priority(NodeId id) const;
     bool is_beyond(Cost g, Cost h);
     bool cannot_improve(const SearchNode& node);
@@ -77,6 +78,7 @@ private:
     Limits& limits_;
     SearchStatistics& statistics_;
     Progression progression_;
+    NetworkBounds bounds_;
     std::optional<Ending> ending_;
     ForcedCycle forced_cycle_;
     std::vector<SelectiveHeuristic> heuristics_;

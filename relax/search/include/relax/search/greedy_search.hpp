@@ -12,6 +12,7 @@
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/heuristics/heuristic.hpp"
+#include "relax/networks/network_bounds.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/forced_cycle.hpp"
 #include "relax/search/open_list.hpp"
@@ -59,6 +60,7 @@ private:
     Limits& limits_;
     SearchStatistics& statistics_;
     Progression progression_;
+    NetworkBounds bounds_;
     std::unique_ptr<Heuristic> heuristic_;
     SearchSpace nodes_;
     OpenList<NodeId> open_;

@@ -5,9 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
+#include "relax/networks/network_bounds.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/open_list.hpp"
 #include "relax/search/search_space.hpp"
@@ -21,8 +23,12 @@ namespace relax {
 // A choice between the cases of an action counts as primitive: which case it is depends on the state.
 class Linearisation {
 public:
-    Linearisation(Progression& progression, Limits& limits)
-        : progression_(progression), limits_(limits), nodes_(progression.networks()) {}
+    Linearisation(const PricedProblem& priced, Progression& progression, NetworkBounds& bounds, Limits& limits)
+        : priced_(priced),
+          progression_(progression),
+          bounds_(bounds),
+          limits_(limits),
+          nodes_(progression.networks()) {}
 
     struct Order {
         std::vector<SearchStep> steps;
@@ -38,7 +44,9 @@ private:
     void reach(NodeId from, Cost g, const Successor& successor);
     std::vector<SearchStep> steps_to(NodeId node) const;
 
+    const PricedProblem& priced_;
     Progression& progression_;
+    NetworkBounds& bounds_;
     Limits& limits_;
     SearchSpace nodes_;
     SegmentedArray<std::uint32_t> seen_;  // by NodeId: the latest call that met the node, or kHopeless

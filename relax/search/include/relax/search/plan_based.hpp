@@ -9,6 +9,7 @@
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
+#include "relax/networks/network_bounds.hpp"
 #include "relax/progression/open_preconditions.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/linearisation.hpp"
@@ -64,6 +65,7 @@ private:
     std::vector<bool> is_choice_;    // by TaskId: the case of an action is chosen when it is executed
     std::vector<Cost> task_bounds_;  // by TaskId
     Progression progression_;
+    NetworkBounds bounds_;
     Linearisation linearisation_;
     OpenPreconditions open_preconditions_;
     SegmentedArray<Node> nodes_;

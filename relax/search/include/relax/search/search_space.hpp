@@ -39,8 +39,9 @@ public:
     }
 
     // Returns the node to be known in the place of the old one, for a network of the same form: itself if the network
-    // is the same, or else a new one, since what the old one led to goes on from its own network.
-    NodeId replace(NodeId old, NetworkId network) {
+    // is the same, or else a new one, since what the old one led to goes on from its own network. `more`: how much more
+    // than the old one's the new network's bound is.
+    NodeId replace(NodeId old, NetworkId network, Cost more) {
         if (nodes_[old].network == network) {
             return old;
         }
@@ -48,7 +49,7 @@ public:
         nodes_.push_back(nodes_[old]);
         nodes_[id].network = network;
         if (nodes_[id].h < kInfinity) {
-            nodes_[id].h += networks_.bound(network) - networks_.bound(nodes_[old].network);
+            nodes_[id].h += more;
         }
         nodes_[old].is_expanded = true;
         table_.replace(hash(old), old, id);

@@ -14,6 +14,7 @@
 #include "relax/base/limits.hpp"
 #include "relax/base/segmented_array.hpp"
 #include "relax/heuristics/heuristic.hpp"
+#include "relax/networks/network_bounds.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/action_lists.hpp"
 #include "relax/search/open_list.hpp"
@@ -101,8 +102,8 @@ private:
     void generate(LabelId parent, const Successor& successor);
     void add_plan(LabelId id);
     bool keep(LabelId id);
-    ActionListId list_after(LabelId label, const SearchStep& step);
-    Cost cheap_bound(const Node& parent, const Successor& successor);
+    ActionListId list_after(LabelId label, std::optional<ActionId> action);
+    Cost cheap_bound(const Node& parent, Cost cost, NetworkId network);
     NodeId find_node(StateId state, NetworkId network);
     std::optional<LabelId> find_label(NodeId node, ActionListId actions) const;
     LabelId add_label(const Label& label);
@@ -120,6 +121,7 @@ private:
     Limits& limits_;
     TopPlansStatistics& statistics_;
     Progression progression_;
+    NetworkBounds bounds_;
     std::unique_ptr<Heuristic> heuristic_;
     ActionLists lists_;
     SegmentedArray<Node> nodes_;
@@ -131,7 +133,6 @@ private:
     bool has_pruned_ = false;      // there may be more plans than those ...
     bool has_overflowed_ = false;  // ... that cost `kMostCost` or more
     std::vector<Successor> successors_;
-    std::vector<TaskId> tasks_;
 };
 
 // Make and run it; a limit that is reached while it is being made is a result, too.
