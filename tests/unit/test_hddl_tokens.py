@@ -88,7 +88,7 @@ def test_what_is_not_a_define(text: str, message: str) -> None:
 )
 def test_fifty_megabytes_of_parentheses_end_at_once(text: str) -> None:
     with pytest.raises(InputError):
-        Source(text, "d.hddl", Limits.starting_now(time_limit=120))  # nested lists of all would take minutes
+        Source(text, "d.hddl", Limits.starting_now(time_limit=120))
 
 
 def test_nesting_as_deep_as_allowed_and_deeper(tmp_path: Path) -> None:

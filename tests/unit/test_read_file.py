@@ -54,6 +54,7 @@ def test_a_pipe_that_nobody_writes_ends_at_the_limit(pipe: Path, capsys: pytest.
         ("validate d.hddl p.hddl pipe --json", '"stopped": "time-limit"'),
         ("validate d.hddl p.hddl a.plan --costs pipe", "not decided"),
         ("compare-attitudes d.hddl pipe --alpha 1", "error: the time limit was reached"),
+        ("compare-attitudes d.hddl pipe --alpha 1 --json", '"results": [{"status": "time-limit"'),
         ("compare-attitudes d.hddl p.hddl --alpha 1 --costs pipe", "error: the time limit was reached"),
     ],
 )

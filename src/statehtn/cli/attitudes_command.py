@@ -5,12 +5,17 @@ from __future__ import annotations
 import argparse
 import json
 
+from statehtn.attitudes import AttitudeComparison, compared_agents
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.streams import emit
-from statehtn.limits import Limits
+from statehtn.limits import LimitReached, Limits
+from statehtn.model.status import Status
 from statehtn.planner import compare_attitudes
+from statehtn.result import Result
+from statehtn.risk import Attitude
+from statehtn.settings import Settings
 
 
 def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
@@ -20,17 +25,30 @@ def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         LimitReached: a limit was reached before the input was read.
     """
-    problem = read_problem(options, Limits.starting_now(options.time_limit, options.memory_limit))
-    with ProgressLine(silent=False) as progress:
-        comparison = compare_attitudes(
-            problem,
-            options.alpha,
-            heuristic=options.heuristic,
-            search=options.search,
-            time_limit=options.time_limit,
-            memory_limit=options.memory_limit,
-            progress=progress.callback,
-        )
+    try:
+        problem = read_problem(options, Limits.starting_now(options.time_limit, options.memory_limit))
+    except LimitReached as ending:
+        if not options.json:
+            raise
+        comparison = _stopped(options, ending.status)
+    else:
+        with ProgressLine(silent=False) as progress:
+            comparison = compare_attitudes(
+                problem,
+                options.alpha,
+                heuristic=options.heuristic,
+                search=options.search,
+                time_limit=options.time_limit,
+                memory_limit=options.memory_limit,
+                progress=progress.callback,
+            )
     emit(json.dumps(comparison.to_dict(), allow_nan=False) if options.json else str(comparison))
     codes = (EXIT_CODES[result.status] for result in comparison.results)
     return next((code for code in codes if code != ExitCode.SUCCESS), ExitCode.SUCCESS)
+
+
+def _stopped(options: argparse.Namespace, status: Status) -> AttitudeComparison:
+    """Return the comparison of agents none of which has been asked."""
+    agents = compared_agents(options.alpha, Attitude)
+    asked = (Settings.of(agent, heuristic=options.heuristic, search=options.search) for agent in agents)
+    return AttitudeComparison(tuple(Result(status, settings, stopped=status) for settings in asked))
