@@ -24,8 +24,8 @@ import sys
 import time
 import warnings
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from statehtn.effort import peak_memory_mb
@@ -34,7 +34,7 @@ from statehtn.experiments.instances import find_instances
 from statehtn.experiments.run import Instance
 from statehtn.hddl import HddlWarning, read_hddl
 from statehtn.limits import LimitReached, Limits
-from tests.benchmarks.tables import geometric_mean, machine, read_rows, section
+from tests.benchmarks.tables import add_measuring, geometric_mean, machine, measure_all, section
 
 SLOW = 0.1  # seconds of the baseline above which times are compared
 LARGER = 1.1
@@ -183,15 +183,18 @@ def domain_table(rows: list[Row], baseline: dict[tuple[str, str], Baseline]) -> 
         yield f"| {' | '.join(cells)} |"
 
 
+def line(row: Row) -> str:
+    """Return what is printed about a row."""
+    return f"{row.name:<70} {row.status:<12} {row.seconds:7.2f} s {row.peak_memory_mb or 0:7.0f} MB"
+
+
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=Path, default=os.environ.get("STATEHTN_IPC") or None)
     parser.add_argument("--baseline", type=Path)
-    parser.add_argument("--output", type=Path, help="write a line of CSV for each problem as soon as it is done")
     parser.add_argument("--markdown", type=Path, help="write the report there as Markdown, with a table of the domains")
     parser.add_argument("--only", default="", help="only problems whose domain and name contain this text")
-    parser.add_argument("--resume", action="store_true", help="keep what the output has already")
-    parser.add_argument("--jobs", type=int, default=1)
+    add_measuring(parser)
     parser.add_argument("--time-limit", type=float, default=60.0)
     parser.add_argument("--memory-limit", type=float, default=4000.0)
     parser.add_argument("--child", nargs=2, help=argparse.SUPPRESS)
@@ -201,34 +204,15 @@ def arguments() -> argparse.Namespace:
     return options
 
 
-def run_all(options: argparse.Namespace) -> list[Row]:
-    """Measure every problem, write and show each as it ends."""
-    earlier = read_rows(Row, options.output) if options.resume and options.output and options.output.exists() else []
-    known = {(row.domain, row.problem) for row in earlier}
-    instances = [one for one in find_instances(options.root) if options.only in f"{one.domain} {one.problem}"]
-    todo = [one for one in instances if (one.domain, one.problem) not in known]
-    rows = list(earlier)
-    with (
-        open(options.output or os.devnull, "w", newline="", encoding="utf-8") as file,
-        ThreadPoolExecutor(options.jobs) as pool,
-    ):
-        writer = csv.DictWriter(file, [field.name for field in fields(Row)])
-        writer.writeheader()
-        writer.writerows(asdict(row) for row in earlier)
-        for row in pool.map(lambda one: measure(one, options.time_limit, options.memory_limit), todo):
-            rows.append(row)
-            writer.writerow(asdict(row))
-            file.flush()
-            print(f"{row.name:<70} {row.status:<12} {row.seconds:7.2f} s {row.peak_memory_mb or 0:7.0f} MB", flush=True)
-    return rows
-
-
 def main() -> None:
     options = arguments()
     if options.child:
         print(json.dumps(run_child(*options.child, options.time_limit, options.memory_limit)))
         return
-    rows = run_all(options)
+    names = {f"{one.domain} {one.problem}": one for one in find_instances(options.root)}
+    allowed = options.time_limit, options.memory_limit
+    cases = {name: partial(measure, one, *allowed) for name, one in names.items() if options.only in name}
+    rows = measure_all(Row, cases, options, line)
     if not rows:
         raise SystemExit("no problem to ground")
     baseline = read_baseline(options.baseline) if options.baseline else {}

@@ -1,35 +1,26 @@
 """How time and memory of the optimal search grow with the size of the problem.
 
-Usage: python -m tests.benchmarks.growth [--root DIR] [--most-seconds S] [--output FILE.csv] [--markdown FILE.md]
-           [--plot FILE ...] [--repeat N] [--jobs N]
+Usage: python -m tests.benchmarks.growth RUNS.csv [--markdown FILE.md] [--plot FILE ...]
 
-Size is the number of ground actions and methods. Three families: this project's satellites with 3 to 10 observations, 1
-satellite and 3 modes; its vehicles P1 to P9; and, where --root or STATEHTN_IPC names the folder of the competition's
-benchmarks, Transport in total order. Every search has --most-seconds (60 if not told) after reading and grounding.
-
-Every search is run --repeat times (3 if not told); the run of median time counts. A power of the size is fitted to the
-seconds, the generated nodes, and the memory that a search takes beyond the ground problem: least squares on logarithms,
-over the problems that are solved and take at least 0.1 ms, or 1 MB; the system does not tell less. Prints a table of
-the problems and one of the exponents; each --plot is an image, its kind told by its ending (.svg, .png).
+The runs are a table of `statehtn compare`; its domains are the families (`growth.toml` is a suite of two), and of a run
+that was repeated, that of median time counts. Size is the number of ground actions and methods. A power of the size is
+fitted to the seconds, the generated nodes, and the memory beyond that of the smallest process: least squares on
+logarithms, over the problems that are solved and take at least 0.1 ms, or 1 MB; the system does not tell less. Prints a
+table of the problems and one of the exponents; each --plot is an image, its kind told by its ending (.svg, .png).
 """
 
 from __future__ import annotations
 
 import argparse
-import csv
-import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from tests.benchmarks.search_case import Case, Row, measure
+from tests.benchmarks.records import Row, least_memory_mb, read_runs
 from tests.benchmarks.tables import figure, machine, table
 
-DOMAINS = Path(__file__).resolve().parents[2] / "domains"
-OBSERVATIONS = range(3, 11)
 LEAST_POINTS = 3  # that an exponent is fitted to
 
 
@@ -45,7 +36,7 @@ class Measure:
 MEASURES = (
     Measure("seconds of search", 1e-4, lambda row: row.search_seconds),
     Measure("generated nodes", 1, lambda row: row.generated),
-    Measure("MB of search", 1.0, lambda row: row.search_memory_mb),
+    Measure("MB of search", 1.0, lambda row: row.peak_memory_mb),
 )
 
 
@@ -81,43 +72,13 @@ def fit(found: list[tuple[int, float]]) -> Fit | None:
     return Fit(float(exponent), float(np.exp(offset)), float(explained), len(found))
 
 
-def families(root: Path | None) -> Iterator[tuple[str, Path, list[Path]]]:
-    """Yield the name, the domain and the problems of every family."""
-    satellite = DOMAINS / "satellite"
-    names = [f"RA-{count}obs-1sat-3mod.hddl" for count in OBSERVATIONS]
-    places = [
-        next(folder / name for folder in (satellite, satellite / "large") if (folder / name).exists()) for name in names
-    ]
-    yield "Satellite", satellite / "domain.hddl", places
-    vehicle = DOMAINS / "av"
-    yield "Vehicle", vehicle / "domain.hddl", sorted(vehicle.glob("p*.hddl"))
-    if root is not None:
-        transport = root / "total-order" / "Transport"
-        yield "Transport", transport / "domain.hddl", sorted(transport.glob("pfile*.hddl"))
-
-
-def run_all(options: argparse.Namespace) -> dict[str, list[Row]]:
-    """Measure every problem, write and show each as it ends; rows by family."""
-    cases = [(name, domain, one) for name, domain, problems in families(options.root) for one in problems]
-    found: dict[str, list[Row]] = {name: [] for name, _, _ in cases}
-
-    def run(case: tuple[str, Path, Path]) -> Row:
-        name, domain, problem = case
-        search = Case(str(domain), str(problem), options.most_seconds)
-        rows = [Row(name, problem.stem, **measure(search)) for _ in range(options.repeat)]
-        return sorted(rows, key=lambda row: row.search_seconds or 0.0)[len(rows) // 2]
-
-    with (
-        open(options.output or os.devnull, "w", newline="", encoding="utf-8") as file,
-        ThreadPoolExecutor(options.jobs) as pool,
-    ):
-        writer = csv.DictWriter(file, [field.name for field in fields(Row)])
-        writer.writeheader()
-        for row in pool.map(run, cases):
-            found[row.domain].append(row)
-            writer.writerow(asdict(row))
-            file.flush()
-            print(f"{row.name:<40} {row.status:<12} {figure(row.search_seconds, '.3f'):>8} s", flush=True)
+def families(rows: list[Row]) -> dict[str, list[Row]]:
+    """Return the rows by domain, with the memory beyond that of the smallest process."""
+    base_mb = least_memory_mb([row.peak_memory_mb for row in rows])
+    found: dict[str, list[Row]] = {}
+    for row in rows:
+        memory = None if row.peak_memory_mb is None else row.peak_memory_mb - base_mb
+        found.setdefault(row.domain, []).append(replace(row, peak_memory_mb=memory))
     return found
 
 
@@ -144,28 +105,23 @@ def problem_table(found: dict[str, list[Row]]) -> Iterator[str]:
 
 
 def _problem(row: Row) -> tuple[str, ...]:
-    effort = figure(row.search_seconds, ".4f"), figure(row.search_memory_mb, ".1f")
+    effort = figure(row.search_seconds, ".4f"), figure(row.peak_memory_mb, ".1f")
     nodes = figure(row.expanded, "d"), figure(row.generated, "d")
     return (row.domain, row.problem, figure(size_of(row), "d"), row.status, *effort, *nodes)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--root", type=Path, default=os.environ.get("STATEHTN_IPC") or None)
-    parser.add_argument("--most-seconds", type=float, default=60.0)
-    parser.add_argument("--output", type=Path, help="write a line of CSV for each problem as soon as it is done")
+    parser.add_argument("runs", type=Path, metavar="RUNS.csv")
     parser.add_argument("--markdown", type=Path, help="write the tables there as Markdown")
     parser.add_argument("--plot", type=Path, nargs="*", default=[], help="draw the figure there")
-    parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
-    found = run_all(options)
+    found = families(read_runs(options.runs))
     exponents, problems = "\n".join(exponent_table(found)), "\n".join(problem_table(found))
-    print(f"\n{exponents}\n\n{problems}")
+    print(f"{exponents}\n\n{problems}")
     if options.markdown:
-        limit = f"At most {options.most_seconds:g} s for each search, median of {options.repeat}."
-        head = f"# Growth: figures\n\n{machine()}. {limit}"
-        options.markdown.write_text(f"{head}\n\n{exponents}\n\n{problems}\n", encoding="utf-8")
+        text = f"# Growth: figures\n\n{machine()}.\n\n{exponents}\n\n{problems}\n"
+        options.markdown.write_text(text, encoding="utf-8")
     if options.plot:
         from tests.benchmarks.growth_plot import draw
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import matplotlib
 
 from tests.benchmarks.growth import MEASURES, Measure, fit, points
-from tests.benchmarks.search_case import Row
+from tests.benchmarks.records import Row
 
 LOOKS = (("#0072b2", "o"), ("#d55e00", "s"), ("#009e73", "^"))
 SIZE = (11.0, 3.8)  # inches

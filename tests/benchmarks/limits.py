@@ -15,18 +15,16 @@ every N-th problem only. The figures do not depend much on what else the machine
 from __future__ import annotations
 
 import argparse
-import csv
-import os
 import shlex
-from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from statehtn.experiments.instances import find_instances
 from statehtn.experiments.run import Instance
 from tests.benchmarks.limits_case import Case, measure
-from tests.benchmarks.tables import figure, machine, read_rows, section, table
+from tests.benchmarks.tables import add_measuring, figure, machine, measure_all, section, table
 
 MOST_SECONDS = 0.3
 MOST_MEMORY = 1.1  # times the limit
@@ -104,49 +102,31 @@ USUAL = (0, 10, 12, 20, 21, 30, 31, 130)
 """Exit codes of runs that ended as they should."""
 
 
-def run_all(todo: list[tuple[Instance, Case]], options: argparse.Namespace) -> list[Row]:
-    """Measure every case, write and show each as it ends; what the output has already is kept, if asked for."""
-    earlier = read_rows(Row, options.output) if options.resume and options.output and options.output.exists() else []
-    known = {(row.domain, row.problem, row.signal) for row in earlier}
-    todo = [(one, case) for one, case in todo if (one.domain, one.problem, case.signal) not in known]
-    rows = list(earlier)
-    with (
-        open(options.output or os.devnull, "w", newline="", encoding="utf-8") as file,
-        ThreadPoolExecutor(options.jobs) as pool,
-    ):
-        writer = csv.DictWriter(file, [field.name for field in fields(Row)])
-        writer.writeheader()
-        writer.writerows(asdict(row) for row in earlier)
-        for (instance, case), found in zip(todo, pool.map(lambda pair: measure(pair[1]), todo), strict=True):
-            row = Row(instance.domain, instance.problem, case.signal, memory_limit_mb=case.memory_mb, **found)
-            rows.append(row)
-            writer.writerow(asdict(row))
-            file.flush()
-            stretch, overrun = figure(row.longest_stretch, ".3f"), figure(row.overrun, ".3f")
-            memory = figure(row.peak_memory_mb, ".0f")
-            print(f"{row.name:<70} exit {row.exit_code} {stretch:>8} s {overrun:>8} s after {memory:>6} MB", flush=True)
-    return rows
+def row_of(instance: Instance, case: Case) -> Row:
+    """Measure a case."""
+    return Row(instance.domain, instance.problem, case.signal, memory_limit_mb=case.memory_mb, **measure(case))
 
 
-def cases(options: argparse.Namespace) -> list[tuple[Instance, Case]]:
-    """Return what is to be run."""
+def line(row: Row) -> str:
+    """Return what is printed about a row."""
+    stretch, overrun = figure(row.longest_stretch, ".3f"), figure(row.overrun, ".3f")
+    memory = figure(row.peak_memory_mb, ".0f")
+    return f"{row.name:<70} exit {row.exit_code} {stretch:>8} s {overrun:>8} s after {memory:>6} MB"
+
+
+def cases(options: argparse.Namespace) -> dict[str, Callable[[], Row]]:
+    """Return what is to be run, by the names of the rows."""
     instances = [one for root in options.root for one in find_instances(root)]
     instances += [Instance(Path(d).parent.name, Path(p).stem, d, p) for d, p in options.case]
     instances = [one for one in instances if options.only in f"{one.domain} {one.problem}"][:: options.every]
     more = tuple(shlex.split(options.arguments))
-    return [
-        (
-            one,
-            Case(
-                ("plan", one.domain_file, one.problem_file, "--quiet", *more),
-                options.seconds,
-                options.memory_limit,
-                sign,
-            ),
-        )
-        for one in instances
-        for sign in (("", "INT", "TERM") if options.signals else ("",))
-    ]
+    found: dict[str, Callable[[], Row]] = {}
+    for one in instances:
+        command = ("plan", one.domain_file, one.problem_file, "--quiet", *more)
+        for sign in ("", "INT", "TERM") if options.signals else ("",):
+            case = Case(command, options.seconds, options.memory_limit, sign)
+            found[Row(one.domain, one.problem, sign).name] = partial(row_of, one, case)
+    return found
 
 
 def main() -> None:
@@ -159,15 +139,13 @@ def main() -> None:
     parser.add_argument("--signals", action="store_true", help="send SIGINT and SIGTERM, in runs of their own, too")
     parser.add_argument("--only", default="", help="only problems whose domain and name contain this text")
     parser.add_argument("--every", type=int, default=1, help="take every so many-th problem only")
-    parser.add_argument("--output", type=Path, help="write a line of CSV for each run as soon as it is done")
     parser.add_argument("--markdown", type=Path, help="write the report there as Markdown")
-    parser.add_argument("--resume", action="store_true", help="keep what the output has already")
-    parser.add_argument("--jobs", type=int, default=1)
+    add_measuring(parser)
     options = parser.parse_args()
     todo = cases(options)
     if not todo:
         parser.error("no problem to run: name folders by --root or problems by --case")
-    rows = run_all(todo, options)
+    rows = measure_all(Row, todo, options, line)
     print("\n" + "\n".join(summary(rows, markdown=False)))
     if options.markdown:
         limits = f"Limits: {options.seconds:g} s and {options.memory_limit:g} MB. {machine()}."

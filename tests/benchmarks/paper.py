@@ -9,67 +9,47 @@ Prints a table and writes nothing: the search alone, reading and grounding, the 
 from __future__ import annotations
 
 import argparse
-import json
 import statistics
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
+from statehtn.experiments.records import Record
+from statehtn.experiments.run import Grid, Run
+from statehtn.experiments.runner import execute
+from statehtn.experiments.suites import SATELLITE_AGENTS, runs_of
+
 DOMAINS = Path(__file__).resolve().parents[2] / "domains"
-VEHICLE_AGENTS = [("seeking", 0.1), ("seeking", 0.9), ("averse", 0.1), ("averse", 0.9), ("neutral", None)]
-SATELLITE_AGENTS = [("seeking", 0.5), ("averse", 0.5), ("neutral", None)]
 
 
-@dataclass(frozen=True)
-class Case:
-    domain: Path
-    problem: Path
-    attitude: str
-    alpha: float | None
-
-    @property
-    def name(self) -> str:
-        agent = self.attitude if self.alpha is None else f"{self.attitude} {self.alpha:g}"
-        return f"{self.domain.parent.name} {self.problem.stem} {agent}"
-
-    @property
-    def command(self) -> list[str]:
-        alpha = [] if self.alpha is None else ["--alpha", str(self.alpha)]
-        files = [str(self.domain), str(self.problem)]
-        return [sys.executable, "-m", "statehtn", "plan", *files, "--json", "--attitude", self.attitude, *alpha]
+def cases(heuristic: str) -> Iterator[Run]:
+    """Yield the problems of the tables, with their agents."""
+    for run in runs_of("paper", Grid(solvers=("state",), heuristics=(heuristic,)), DOMAINS):
+        is_vehicle = run.instance.domain == "av"
+        if run.instance.problem == "p1" if is_vehicle else run.settings.objective in SATELLITE_AGENTS:
+            yield run
 
 
-def cases() -> Iterator[Case]:
-    vehicle = DOMAINS / "av"
-    for attitude, alpha in VEHICLE_AGENTS:
-        yield Case(vehicle / "domain.hddl", vehicle / "p1.hddl", attitude, alpha)
-    satellite = DOMAINS / "satellite"
-    for problem in sorted(satellite.glob("RA-*mod.hddl")):
-        for attitude, alpha in SATELLITE_AGENTS:
-            yield Case(satellite / "domain.hddl", problem, attitude, alpha)
-
-
-def run(case: Case, heuristic: str, repeat: int) -> dict[str, float]:
-    """Run a case several times in processes of their own; medians in seconds, the largest memory in MB."""
-    found: dict[str, list[float]] = {"search": [], "prepare": [], "process": [], "memory": []}
+def measure(run: Run, repeat: int) -> dict[str, float]:
+    """Execute a run several times; medians in seconds, the largest memory in MB."""
+    efforts = []
     for _ in range(repeat):
-        start = time.perf_counter()
-        output = subprocess.run(
-            [*case.command, "--heuristic", heuristic], capture_output=True, text=True, check=True
-        ).stdout
-        found["process"].append(time.perf_counter() - start)
-        result = json.loads(output)
-        if result["status"] != "optimal":
-            raise SystemExit(f"{case.name}: {result['status']}")
-        effort = result["statistics"]
-        found["search"].append(effort["search_seconds"])
-        found["prepare"].append(effort["parse_seconds"] + effort["ground_seconds"])
-        found["memory"].append(effort["peak_memory_mb"])
-    medians = {name: statistics.median(values) for name, values in found.items()}
-    return medians | {"memory": max(found["memory"]), "expanded": effort["expanded"]}
+        record = execute(run)
+        if record.status != "optimal":
+            raise SystemExit(f"{' '.join(run.key)}: {record.status} {record.message}")
+        efforts.append(effort_of(record))
+    medians = {name: statistics.median(effort[name] for effort in efforts) for name in efforts[0]}
+    return medians | {"memory": max(effort["memory"] for effort in efforts)}
+
+
+def effort_of(record: Record) -> dict[str, float]:
+    """Return what a run has taken."""
+    assert record.result is not None
+    known = record.result["statistics"]
+    prepare = known["parse_seconds"] + known["ground_seconds"]
+    effort = {"search": known["search_seconds"], "prepare": prepare, "process": record.seconds}
+    return effort | {"memory": known["peak_memory_mb"], "expanded": known["expanded"]}
 
 
 def import_seconds(repeat: int) -> float:
@@ -87,11 +67,11 @@ def main() -> None:
     options = parser.parse_args()
     print(f"import statehtn: {import_seconds(options.repeat):.3f} s\n")
     print(f"{'problem':<46} {'search s':>9} {'read, ground s':>15} {'process s':>10} {'memory MB':>10} {'expanded':>9}")
-    worst = {"search": 0.0, "prepare": 0.0, "process": 0.0, "memory": 0.0, "expanded": 0.0}
-    for case in cases():
-        row = run(case, options.heuristic, options.repeat)
-        print_row(case.name, row)
-        worst = {name: max(value, row[name]) for name, value in worst.items()}
+    worst: dict[str, float] = {}
+    for run in cases(options.heuristic):
+        row = measure(run, options.repeat)
+        print_row(" ".join(filter(None, run.key[:4])), row)
+        worst = {name: max(worst.get(name, 0.0), value) for name, value in row.items()}
     print_row("the worst of each column", worst)
 
 

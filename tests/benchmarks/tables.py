@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+import argparse
 import csv
 import math
 import os
 import platform
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import fields
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, fields
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
-Row = TypeVar("Row")
+
+class _Named(Protocol):
+    """A row: a dataclass with a name that no other row has."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    @property
+    def name(self) -> str: ...
+
+
+Row = TypeVar("Row", bound=_Named)
 
 
 def read_rows(kind: type[Row], path: Path) -> list[Row]:
@@ -21,6 +33,46 @@ def read_rows(kind: type[Row], path: Path) -> list[Row]:
             kind(**{name: _value(line[name], kind_of) for name, kind_of in _columns(kind)})
             for line in csv.DictReader(file)
         ]
+
+
+def measure_all(
+    kind: type[Row],
+    cases: Mapping[str, Callable[[], Row]],
+    options: argparse.Namespace,
+    line: Callable[[Row], str],
+) -> list[Row]:
+    """Measure all cases, some at once; write the row of each and print a line about it as it ends.
+
+    Args:
+        kind: of the rows; they have the cases' names.
+        cases: what makes each row.
+        options: those of `add_measuring`.
+        line: what is printed about a row.
+    """
+    has_output = options.output is not None and options.output.exists()
+    rows = read_rows(kind, options.output) if options.resume and has_output else []
+    known = {row.name for row in rows}
+    with (
+        open(options.output or os.devnull, "w", newline="", encoding="utf-8") as file,
+        ThreadPoolExecutor(options.jobs) as pool,
+    ):
+        writer = csv.DictWriter(file, [name for name, _ in _columns(kind)])
+        writer.writeheader()
+        writer.writerows(asdict(row) for row in rows)
+        todo = [case for name, case in cases.items() if name not in known]
+        for row in pool.map(lambda case: case(), todo):
+            rows.append(row)
+            writer.writerow(asdict(row))
+            file.flush()
+            print(line(row), flush=True)
+    return rows
+
+
+def add_measuring(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `measure_all`."""
+    parser.add_argument("--output", type=Path, help="write a line of CSV for each problem as soon as it is done")
+    parser.add_argument("--resume", action="store_true", help="keep what the output has already")
+    parser.add_argument("--jobs", type=int, default=1, help="measure so many at once")
 
 
 def _columns(kind: type) -> list[tuple[str, str]]:
