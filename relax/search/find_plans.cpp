@@ -1,18 +1,16 @@
 #include "relax/search/find_plans.hpp"
 
 #include <algorithm>
-#include <new>
 #include <ranges>
 #include <utility>
 
-#include "relax/analysis/tdg_bound.hpp"
+#include "relax/search/cheap_bound.hpp"
+#include "relax/search/learn_branching.hpp"
 #include "relax/search/plan_trace.hpp"
 
 namespace relax {
 
 namespace {
-
-constexpr std::uint32_t kMostForcedSteps = 1000;  // recursion that is forced may have no end
 
 constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
 
@@ -26,62 +24,147 @@ ProgressionOptions progression_options(const SearchOptions& options) {
 
 FindPlans::FindPlans(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                      SearchStatistics& statistics)
-    : priced_(priced),
-      problem_(priced.problem),
+    : StepwiseSearch(priced, limits, statistics),
       options_(options),
-      limits_(limits),
-      statistics_(statistics),
       progression_(priced.problem, priced.free_actions(), progression_options(options), limits),
       bounds_(progression_.networks(), priced.task_bounds(limits)),
-      nodes_(progression_.networks()) {
-    if (options.endings && !progression_.networks().are_totally_ordered()) {
-        ending_.emplace(problem_, limits);
-    }
-    const bool asks_always = !options.selective;
-    heuristics_.emplace_back(make_heuristic(options.heuristic, priced, limits), asks_always);
-    for (const HeuristicKind kind : options.more_heuristics) {
-        heuristics_.emplace_back(make_heuristic(kind, priced, limits), asks_always);
-    }
+      heuristics_(priced, options, progression_, bounds_, limits, statistics),
+      nodes_(progression_.networks(), bounds_),
+      priority_(options.algorithm == SearchAlgorithm::Weighted ? options.weight : 1),
+      forced_steps_(progression_, nodes_, priority_, limits, statistics) {
+    incumbent_.cutoff = options.upper_bound.value_or(kInfinity);
 }
 
-bool FindPlans::advance(std::uint64_t work) {
-    if (!problem_.solvable) {
-        is_done_ = true;
+std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
+    if (nodes_.size() == 0) {
+        push(nodes_.add(progression_.initial_state(), progression_.initial_network()));  // 1, 3
     }
-    if (is_done_) {
-        return true;
-    }
-    try {
-        if (nodes_.size() == 0) {
-            start();
+    while (!open_.is_empty() && open_.top().priority < incumbent_.cutoff) {  // 5; 7: the goal comes next
+        if (work() >= most_work) {
+            return std::nullopt;
         }
-        stop_ = search(work);
-    } catch (const Stopped& stopped) {
-        stop_ = stopped.reason;
-    } catch (const std::bad_alloc&) {
-        stop_ = StopReason::MemoryLimit;
+        if (const auto stop = limits_.check()) {
+            return stop;
+        }
+        const OpenList<NodeId>::Entry entry = open_.pop();  // 6
+        if (is_stale(entry)) {
+            continue;
+        }
+        if (priority_.is_f()) {
+            statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
+        }
+        popped_ = entry.id;
+        if (const auto node = follow(entry.id); node && keeps_priority(*node, entry.priority)) {
+            expand(*node);
+        }
+        popped_.reset();
     }
-    is_done_ = is_done_ || stop_.has_value();
-    if (!is_exact()) {
-        statistics_.lower_bound = proven();
-    }
-    return is_done_;
+    is_done_ = true;
+    return std::nullopt;  // 8; 20
 }
 
-std::uint64_t FindPlans::work() const {
-    std::uint64_t work = statistics_.generated * kWorkOfANode + progression_.work() + (ending_ ? ending_->work() : 0);
-    for (const SelectiveHeuristic& heuristic : heuristics_) {
-        work += heuristic->work();
-    }
-    return work;
+// The node has been expanded, or its g or h has changed, since the entry was made.
+bool FindPlans::is_stale(const OpenList<NodeId>::Entry& entry) const {
+    const SearchNode& node = nodes_[entry.id];
+    return node.is_expanded || node.h != entry.h || priority_(node) != entry.priority;
 }
 
-// No plan that is wanted costs less than this: each that was not found goes through an open node. In the middle of an
-// expansion the open list is not complete.
+// computeRCAdHeur of lines 2, 13 and 18: ask the heuristics about the node until its priority rises. Returns whether it
+// stays as it is; otherwise the node goes back into the open list, unless there is no need.
+bool FindPlans::keeps_priority(NodeId id, Cost priority) {
+    SearchNode& node = nodes_[id];
+    do {
+        if (priority_(node) > priority) {
+            if (!incumbent_.excludes(node.g, node.h)) {
+                push(id);
+            }
+            return false;
+        }
+    } while (heuristics_.raise_h(node, work_without_heuristics(), decisions_));
+    return true;
+}
+
+void FindPlans::expand(NodeId id) {
+    const Cost priority = priority_(nodes_[id]);
+    nodes_[id].is_expanded = true;
+    ++statistics_.expanded;
+    ++decisions_;
+    progression_.expand(nodes_[id].state, nodes_[id].network, successors_);  // 9 to 12, 15 to 17
+    if (options_.learn_branching) {
+        learn_branching(progression_.branching(), problem_, nodes_, id, successors_);
+    }
+    // Of equal nodes the newest is popped first: let that be the one of the domain's first method.
+    for (const Successor& successor : std::views::reverse(successors_)) {
+        auto next = generate(id, successor);  // 13; 18
+        if (next && priority_(nodes_[*next]) <= priority) {
+            next = follow(*next);
+        }
+        if (next) {
+            push(*next);  // 14; 19
+        }
+    }
+}
+
+std::optional<NodeId> FindPlans::follow(NodeId id) {
+    if (!options_.follow_forced) {
+        return id;
+    }
+    return forced_steps_.follow(
+        id, [this](NodeId parent, const Successor& successor) { return generate(parent, successor); });
+}
+
+// Returns the successor's node, unless it is a goal, no plan through it is wanted, or a node as good is known.
+std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& successor) {
+    ++statistics_.generated;
+    const Cost cost = priced_.cost(successor.action, successor.due_parts);
+    const Cost g = add_bounds(nodes_[parent].g, cost);
+    const Cost bound = bounds_[successor.network];
+    const TaskNetworks& networks = progression_.networks();
+    if (networks.is_impossible(successor.network) || incumbent_.overflows(g, bound)) {
+        return std::nullopt;
+    }
+    const auto id = nodes_.add_if_better(successor.state, successor.network, g);
+    if (!id) {
+        return std::nullopt;
+    }
+    SearchNode& node = nodes_[*id];
+    node.reach(parent, g, successor.step);
+    if (networks.is_empty(node.network)) {  // 7
+        if (!incumbent_.excludes(g, 0)) {
+            incumbent_.goal = id;
+            incumbent_.cutoff = g;
+            statistics_.best = g;
+        }
+        return std::nullopt;
+    }
+    node.h = std::max(node.h, cheap_bound(options_, bound, nodes_[parent].h, cost));
+    return incumbent_.excludes(g, node.h) ? std::nullopt : id;
+}
+
+void FindPlans::push(NodeId id) {
+    const SearchNode& node = nodes_[id];
+    open_.push(id, priority_(node), node.h, progression_.networks().size(node.network));
+}
+
+std::uint64_t FindPlans::work() const { return work_without_heuristics() + heuristics_.work(); }
+
+std::uint64_t FindPlans::work_without_heuristics() const {
+    return statistics_.generated * kWorkOfANode + progression_.work();
+}
+
+// No plan that is wanted costs less: each goes through an open node, or through the one that is being expanded.
 Cost FindPlans::proven() const {
-    const Cost wanted = options_.upper_bound.value_or(has_overflowed_ ? kMostCost : kInfinity);
-    const Cost by_nodes = is_expanding_ ? 0 : std::min(open_bound(), wanted);
-    return std::max(by_nodes, std::min(statistics_.lower_bound.value_or(0), wanted));
+    Cost bound = incumbent_.bound_when_nothing_is_open();
+    const auto take = [&](NodeId id) { bound = std::min(bound, nodes_[id].g + nodes_[id].h); };
+    if (popped_) {
+        take(*popped_);
+    }
+    for (const OpenList<NodeId>::Entry& entry : open_.entries()) {
+        if (!nodes_[entry.id].is_expanded) {
+            take(entry.id);
+        }
+    }
+    return std::max(bound, std::min(statistics_.lower_bound.value_or(0), incumbent_.bound_when_nothing_is_open()));
 }
 
 SearchResult FindPlans::result() {
@@ -90,195 +173,24 @@ SearchResult FindPlans::result() {
         return result;
     }
     const Limits::Grace grace(limits_);
-    const Cost bound = goal_ ? std::min(proven(), *statistics_.best) : proven();
+    const Cost bound = proven();
     result.stop = stop_;
-    if (goal_) {
-        trace_plan(priced_, progression_, nodes_, *goal_, limits_, result);
+    if (incumbent_.goal) {
+        trace_plan(priced_, progression_, nodes_, *incumbent_.goal, limits_, result);  // 8
     }
     if (result.cost) {
         statistics_.best = result.cost;
         statistics_.lower_bound = std::min(bound, *result.cost);
         result.status = bound >= *result.cost ? SearchStatus::Optimal : SearchStatus::Solved;
-    } else if (!is_done_ || result.stop || bound < options_.upper_bound.value_or(kInfinity)) {
+    } else if (!is_done_ || result.stop || bound < incumbent_.cutoff) {
         statistics_.lower_bound = bound;
         result.status = result.stop ? status_of(*result.stop) : SearchStatus::GaveUp;
     } else {
         statistics_.lower_bound.reset();
-        result.status = SearchStatus::Unsolvable;
+        result.status = SearchStatus::Unsolvable;  // 20
     }
     result.statistics = statistics_;
     return result;
-}
-
-void FindPlans::start() {
-    const NodeId root = nodes_.add(progression_.initial_state(), progression_.initial_network());
-    push(root);
-}
-
-// Search until the best plan is as good as the algorithm promises, or nothing is open, or the work is done. Says why it
-// was stopped before that.
-std::optional<StopReason> FindPlans::search(std::uint64_t most_work) {
-    while (!open_.is_empty() && open_.top().priority < cutoff()) {
-        if (work() >= most_work) {
-            return std::nullopt;
-        }
-        if (const auto stop = limits_.check()) {
-            return stop;
-        }
-        const OpenList<NodeId>::Entry entry = open_.pop();
-        if (is_stale(entry)) {
-            continue;
-        }
-        if (is_exact()) {
-            statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(0), entry.priority);
-        }
-        is_expanding_ = true;
-        const auto node = follow(entry.id);
-        if (node && priority(*node) > entry.priority) {
-            push(*node);
-        } else if (node && evaluate(*node, entry.priority)) {
-            expand(*node);
-        }
-        is_expanding_ = false;
-    }
-    is_done_ = true;
-    return std::nullopt;
-}
-
-// The priority from which nothing that is open is worth a look. Weighted search has kept its promise then: with
-// g + weight h at least the cost of the best plan for every open node, weight (g + h) is as well.
-Cost FindPlans::cutoff() const {
-    return std::min(goal_ ? *statistics_.best : kInfinity, options_.upper_bound.value_or(kInfinity));
-}
-
-// The node has been expanded, or priced anew, since the entry was made.
-bool FindPlans::is_stale(const OpenList<NodeId>::Entry& entry) const {
-    const SearchNode& node = nodes_[entry.id];
-    return node.is_expanded || node.h != entry.h || priority(entry.id) != entry.priority;
-}
-
-// Ask the heuristics that have not been asked about this pair of state and network, until one of them raises f. Returns
-// whether none does; else the node is a dead end or goes back to the open list.
-bool FindPlans::evaluate(NodeId id, Cost f) {
-    SearchNode& node = nodes_[id];
-    if (!can_end(node)) {
-        ++statistics_.dead_ends;
-        node.h = kInfinity;
-        return false;
-    }
-    while (node.heuristics_asked < heuristics_.size()) {
-        SelectiveHeuristic& heuristic = heuristics_[node.heuristics_asked++];
-        if (!heuristic.is_worth_asking()) {
-            continue;
-        }
-        const std::uint64_t cuts_before = heuristic->rounds();
-        const auto h = ask(heuristic, id);
-        ++statistics_.evaluated;
-        statistics_.cuts += heuristic->rounds() - cuts_before;
-        heuristic.note_answer(!h || *h > node.h, work_of_a_node(heuristic));
-        if (!h) {
-            ++statistics_.dead_ends;
-            node.h = kInfinity;
-            return false;
-        }
-        node.h = std::max(node.h, *h);
-        if (cannot_improve(node)) {
-            return false;
-        }
-        if (priority(id) > f) {
-            push(id);
-            return false;
-        }
-    }
-    return true;
-}
-
-// A node whose evaluation is cut short stays open.
-std::optional<Cost> FindPlans::ask(SelectiveHeuristic& heuristic, NodeId id) {
-    try {
-        NodeView view = progression_.view(nodes_[id].state, nodes_[id].network);
-        view.tdg_bound = bounds_[nodes_[id].network];
-        return heuristic->evaluate(view);
-    } catch (const Stopped&) {
-        push(id);
-        is_expanding_ = false;
-        throw;
-    }
-}
-
-bool FindPlans::can_end(const SearchNode& node) {
-    return !ending_ || node.heuristics_asked > 0 || !ending_->is_worth_asking() ||
-           ending_->is_possible(progression_.ordered_tasks(node.network));
-}
-
-// What a node has cost so far on average, this heuristic left out. The first one is always worth its work.
-std::uint64_t FindPlans::work_of_a_node(const SelectiveHeuristic& heuristic) const {
-    if (&heuristic == &heuristics_.front()) {
-        return std::uint64_t{1} << 50;
-    }
-    return (work() - heuristic->work()) / std::max<std::uint64_t>(1, decided_);
-}
-
-void FindPlans::expand(NodeId id) {
-    const Cost f = priority(id);
-    nodes_[id].is_expanded = true;
-    ++statistics_.expanded;
-    ++decided_;
-    progression_.expand(nodes_[id].state, nodes_[id].network, successors_);
-    if (options_.learn_branching) {
-        note_branching(id);
-    }
-    // Of equal nodes the newest comes first, and that is the one of the domain's first method.
-    for (const Successor& successor : std::views::reverse(successors_)) {
-        auto next = generate(id, successor);
-        if (next && priority(*next) <= f) {
-            next = follow(*next);
-        }
-        if (next) {
-            push(*next);
-        }
-    }
-}
-
-void FindPlans::note_branching(NodeId id) {
-    if (successors_.size() > 1 && successors_.front().step.method) {
-        progression_.branching().note_decomposed(problem_.method_task[*successors_.front().step.method]);
-    }
-    while (nodes_[id].is_forced) {
-        id = nodes_[id].parent;
-    }
-    if (const auto method = nodes_[id].step().method) {
-        progression_.branching().note_survivor(*method);
-    }
-}
-
-// Go on from a node as long as there is but one way and f stays as it is. Returns where that leads, unless to a dead
-// end, a goal, in a circle, or to a node that is known or cannot improve on the best plan. The nodes between are never
-// open, and no heuristic is asked about them.
-std::optional<NodeId> FindPlans::follow(NodeId id) {
-    const Cost f = priority(id);
-    std::uint32_t step = 0;
-    for (; options_.follow_forced && step < kMostForcedSteps && priority(id) <= f && !limits_.check(); ++step) {
-        SearchNode& node = nodes_[id];
-        if (node.is_followed || !progression_.expand_if_forced(node.state, node.network, forced_)) {
-            node.is_followed = true;
-            return id;
-        }
-        node.is_expanded = true;
-        ++statistics_.expanded;
-        const auto next = forced_.empty() ? std::nullopt : generate(id, forced_.front());
-        if (!next) {
-            return std::nullopt;
-        }
-        id = *next;
-        nodes_[id].is_forced = true;
-    }
-    if (step > 0 && forced_cycle_.closes(nodes_, progression_.networks(), id)) {
-        ++statistics_.dead_ends;
-        nodes_[id].h = kInfinity;
-        return std::nullopt;
-    }
-    return id;
 }
 
 }  // namespace relax

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "relax/analysis/tdg_bound.hpp"
@@ -22,33 +21,14 @@ constexpr std::uint64_t kWorkOfANode = 200;      // in operators that a heuristi
 
 GreedySearch::GreedySearch(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                            SearchStatistics& statistics)
-    : priced_(priced),
-      problem_(priced.problem),
+    : StepwiseSearch(priced, limits, statistics),
       options_(options),
-      limits_(limits),
-      statistics_(statistics),
       progression_(priced.problem, priced.free_actions(), options, limits),
       bounds_(progression_.networks(), priced.task_bounds(limits)),
       heuristic_(make_heuristic(options.heuristic, priced, limits)),
-      nodes_(progression_.networks()),
-      most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {}
-
-bool GreedySearch::advance(std::uint64_t work) {
-    if (!problem_.solvable) {
-        is_done_ = true;
-    }
-    if (is_done_) {
-        return true;
-    }
-    try {
-        stop_ = search(work);
-    } catch (const Stopped& stopped) {
-        stop_ = stopped.reason;
-    } catch (const std::bad_alloc&) {
-        stop_ = StopReason::MemoryLimit;
-    }
-    is_done_ = is_done_ || stop_.has_value();
-    return is_done_;
+      nodes_(progression_.networks(), bounds_),
+      most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {
+    incumbent_.cutoff = options.upper_bound.value_or(kInfinity);
 }
 
 std::uint64_t GreedySearch::work() const {
@@ -63,8 +43,8 @@ SearchResult GreedySearch::result() {
     const Limits::Grace grace(limits_);
     result.stop = stop_;
     statistics_.lower_bound = proven_;
-    if (goal_) {
-        trace_plan(priced_, progression_, nodes_, *goal_, limits_, result);
+    if (incumbent_.goal) {
+        trace_plan(priced_, progression_, nodes_, *incumbent_.goal, limits_, result);
     }
     if (result.cost) {
         statistics_.best = result.cost;
@@ -72,7 +52,8 @@ SearchResult GreedySearch::result() {
         statistics_.lower_bound = std::min(proven_, *result.cost);
     } else if (result.stop) {
         result.status = status_of(*result.stop);
-    } else if (!is_done_ || has_overflowed_ || options_.in_sequence || statistics_.evaluated >= most_evaluations_) {
+    } else if (!is_done_ || incumbent_.has_overflowed || options_.in_sequence ||
+               statistics_.evaluated >= most_evaluations_) {
         result.status = SearchStatus::GaveUp;
     } else {
         result.status = SearchStatus::Unsolvable;
@@ -179,8 +160,7 @@ std::optional<Cost> GreedySearch::evaluate(NodeId id) {
 std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& successor) {
     ++statistics_.generated;
     const Cost g = add_bounds(nodes_[parent].g, priced_.cost(successor.action, successor.due_parts));
-    if (g >= kMostCost) {
-        has_overflowed_ = true;
+    if (incumbent_.overflows(g, 0)) {
         return std::nullopt;
     }
     if (const auto known = nodes_.find(successor.state, successor.network)) {
@@ -191,18 +171,18 @@ std::optional<NodeId> GreedySearch::generate(NodeId parent, const Successor& suc
         }
         return std::nullopt;
     }
-    if (options_.upper_bound && add_bounds(g, bounds_[successor.network]) >= *options_.upper_bound) {
+    if (add_bounds(g, bounds_[successor.network]) >= incumbent_.cutoff) {
         return std::nullopt;
     }
     const NodeId id = nodes_.add(successor.state, successor.network);
     nodes_[id].reach(parent, g, successor.step);
     if (progression_.networks().is_empty(successor.network)) {
-        if (!goal_) {
+        if (!incumbent_.goal) {
             most_evaluations_ = 2 * statistics_.evaluated + kMoreEvaluations;
             most_work_ = work() + kMoreWork;
         }
-        goal_ = id;
-        options_.upper_bound = g;
+        incumbent_.goal = id;
+        incumbent_.cutoff = g;
         statistics_.best = g;
         return std::nullopt;
     }

@@ -29,8 +29,9 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
             reach(here, add_bounds(nodes_[here].g, priced_.cost(successor.action, successor.due_parts)), successor);
         }
     }
-    for (const NodeId node : met_) {
-        seen_[node] = kHopeless;
+    // What was left out for its cost may be reached at a lower one from another network.
+    for (std::size_t at = 0; !has_overflowed_ && at < met_.size(); ++at) {
+        seen_[met_[at]] = kHopeless;
     }
     return std::nullopt;
 }

@@ -1,7 +1,6 @@
 #include "relax/search/plan_based.hpp"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 #include "relax/analysis/tdg_bound.hpp"
@@ -55,14 +54,7 @@ SearchResult PlanBased::run() {
     if (!problem_.solvable) {
         return result;
     }
-    std::optional<StopReason> stop;
-    try {
-        stop = search();
-    } catch (const Stopped& stopped) {
-        stop = stopped.reason;
-    } catch (const std::bad_alloc&) {
-        stop = StopReason::MemoryLimit;
-    }
+    const auto stop = run_within_limits([this] { return search(); });
     const Limits::Grace grace(limits_);
     result.stop = stop;
     if (solution_) {

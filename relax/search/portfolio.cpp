@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "relax/base/cost.hpp"
@@ -106,17 +105,14 @@ bool Portfolio::begin_stage(Member& member) {
     SearchOptions options = member.stages[member.statistics.size()];
     options.upper_bound = upper_bound_;
     SearchStatistics& statistics = member.statistics.emplace_back();
-    try {
+    stop_ = run_within_limits([&]() -> std::optional<StopReason> {
         if (member.is_greedy()) {
             member.search = std::make_unique<GreedySearch>(priced_, options, limits_, statistics);
         } else {
             member.search = std::make_unique<FindPlans>(priced_, options, limits_, statistics);
         }
-    } catch (const Stopped& stopped) {
-        stop_ = stopped.reason;
-    } catch (const std::bad_alloc&) {
-        stop_ = StopReason::MemoryLimit;
-    }
+        return std::nullopt;
+    });
     share_bounds();
     return !stop_;
 }

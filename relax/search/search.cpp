@@ -1,7 +1,6 @@
 #include "relax/search/search.hpp"
 
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "relax/search/find_plans.hpp"
@@ -45,13 +44,12 @@ SearchResult stopped_early(StopReason reason, const SearchStatistics& statistics
 
 SearchResult search(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                     SearchStatistics& statistics) {
-    try {
-        return search_or_throw(priced, options, limits, statistics);
-    } catch (const Stopped& stopped) {
-        return stopped_early(stopped.reason, statistics);
-    } catch (const std::bad_alloc&) {
-        return stopped_early(StopReason::MemoryLimit, statistics);
-    }
+    SearchResult result;
+    const auto stop = run_within_limits([&]() -> std::optional<StopReason> {
+        result = search_or_throw(priced, options, limits, statistics);
+        return std::nullopt;
+    });
+    return stop ? stopped_early(*stop, statistics) : result;
 }
 
 }  // namespace relax

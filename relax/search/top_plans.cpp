@@ -1,10 +1,10 @@
 #include "relax/search/top_plans.hpp"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 #include "relax/analysis/tdg_bound.hpp"
+#include "relax/search/cheap_bound.hpp"
 #include "relax/search/plan_trace.hpp"
 
 namespace relax {
@@ -46,15 +46,13 @@ TopPlans::TopPlans(const PricedProblem& priced, std::vector<std::optional<Action
 
 TopPlansResult top_plans(const PricedProblem& priced, std::vector<std::optional<ActionName>> names,
                          const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics) {
-    TopPlansResult stopped_early;
-    try {
-        return TopPlans(priced, std::move(names), options, limits, statistics).run();
-    } catch (const Stopped& stopped) {
-        stopped_early.stop = stopped.reason;
-    } catch (const std::bad_alloc&) {
-        stopped_early.stop = StopReason::MemoryLimit;
-    }
-    return stopped_early;
+    TopPlansResult result;
+    const auto stop = run_within_limits([&]() -> std::optional<StopReason> {
+        result = TopPlans(priced, std::move(names), options, limits, statistics).run();
+        return result.stop;
+    });
+    result.stop = stop;
+    return result;
 }
 
 TopPlansResult TopPlans::run() {
@@ -63,13 +61,7 @@ TopPlansResult TopPlans::run() {
         result.is_all = true;
         return result;
     }
-    try {
-        result.stop = search();
-    } catch (const Stopped& stopped) {
-        result.stop = stopped.reason;
-    } catch (const std::bad_alloc&) {
-        result.stop = StopReason::MemoryLimit;
-    }
+    result.stop = run_within_limits([this] { return search(); });
     const Limits::Grace grace(limits_);
     result.is_all =
         !result.stop && ((plans_.size() < options_.count && !has_overflowed_) || (open_.is_empty() && !has_pruned_));
@@ -150,7 +142,8 @@ void TopPlans::generate(LabelId parent, const Successor& successor) {
     const Cost cost = priced_.cost(successor.action, successor.due_parts);
     const Cost g = add_bounds(labels_[parent].g, cost);
     const NodeId node = find_node(successor.state, successor.network);
-    nodes_[node].h = std::max(nodes_[node].h, cheap_bound(nodes_[labels_[parent].node], cost, successor.network));
+    nodes_[node].h = std::max(
+        nodes_[node].h, cheap_bound(options_.search, bounds_[successor.network], nodes_[labels_[parent].node].h, cost));
     if (const Cost f = add_bounds(g, nodes_[node].h); f >= cutoff()) {
         has_pruned_ = has_pruned_ || f < kInfinity;
         has_overflowed_ = has_overflowed_ || f == kMostCost;
@@ -239,17 +232,6 @@ ActionListId TopPlans::list_after(LabelId label, std::optional<ActionId> action)
     }
     const ActionName name = *names_[*action];
     return options_.distinct == Distinct::Sequence ? lists_.append(before, name) : lists_.insert(before, name);
-}
-
-Cost TopPlans::cheap_bound(const Node& parent, Cost cost, NetworkId network) {
-    Cost bound = 0;
-    if (options_.search.tdg_bound && options_.search.heuristic != HeuristicKind::Blind) {
-        bound = bounds_[network];
-    }
-    if (options_.search.inherit_h) {
-        bound = std::max(bound, parent.h - cost);
-    }
-    return bound;
 }
 
 NodeId TopPlans::find_node(StateId state, NetworkId network) {

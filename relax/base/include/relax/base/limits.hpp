@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <new>
 #include <optional>
 
 namespace relax {
@@ -70,6 +71,18 @@ private:
     Clock::time_point last_look_{};
     Clock::time_point last_poll_{};
 };
+
+// Run something that a limit may end. Returns why it was ended, or what it returns itself.
+template <typename Run>
+std::optional<StopReason> run_within_limits(Run run) {
+    try {
+        return run();
+    } catch (const Stopped& stopped) {
+        return stopped.reason;
+    } catch (const std::bad_alloc&) {
+        return StopReason::MemoryLimit;
+    }
+}
 
 // Resident memory of this process, in bytes; 0 where the system does not tell.
 std::size_t resident_bytes();

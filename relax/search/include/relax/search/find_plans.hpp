@@ -4,94 +4,71 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "relax/analysis/priced_problem.hpp"
-#include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
-#include "relax/base/segmented_array.hpp"
-#include "relax/heuristics/selective_heuristic.hpp"
 #include "relax/networks/network_bounds.hpp"
-#include "relax/progression/ending.hpp"
 #include "relax/progression/progression.hpp"
-#include "relax/search/forced_cycle.hpp"
+#include "relax/search/forced_steps.hpp"
+#include "relax/search/heuristic_sequence.hpp"
+#include "relax/search/incumbent.hpp"
 #include "relax/search/open_list.hpp"
+#include "relax/search/priority.hpp"
 #include "relax/search/search_options.hpp"
-#include "relax/search/search_result.hpp"
 #include "relax/search/search_space.hpp"
 #include "relax/search/stepwise_search.hpp"
 
 namespace relax {
 
-// FindPlans (the paper's Algorithm 4): best-first search over states and task networks. Open nodes carry a cheap lower
-// bound until they are popped; then the heuristics are asked, one by one, and if f rises they are put back. Of nodes
-// with the same state and networks of one form the best is kept, and reopened when a cheaper way to it turns up.
+// FindPlans, the paper's Algorithm 4: A* over states and task networks. The numbers in find_plans.cpp are the lines of
+// its pseudo-code; src/statehtn/reference/find_plans.py has the same. Costs are positive and minimised. Where it
+// differs from the paper, and why:
 //
-// Its goal test is the empty network. (The paper's returns as soon as all tasks are primitive, which would drop them.)
+// - Lines 2, 13 and 18: a generated node has a cheap lower bound of the cost to come. computeRCAdHeur is asked when the
+//   node is popped; if that raises f, the node goes back into the open list (lazy A*).
+// - Line 7: a node is a goal when its network is empty. The paper stops when all tasks are primitive, which would drop
+//   them from the plan. A goal is kept as soon as it is generated, and returned when no open node has a lower f.
+// - Lines 9 and 10: not every unconstrained task is tried (Progression), and nodes with a single successor are passed
+//   through (ForcedSteps).
+// - There is a closed list: of all nodes with one state and networks of one form the best is known (SearchSpace). It is
+//   opened again when a cheaper path to it is found, since f may fall along a path.
+//
+// With `SearchAlgorithm::Weighted` the open list is ordered by g + weight h.
 class FindPlans final : public StepwiseSearch {
 public:
-    // The heuristics must be admissible. `statistics` is kept up to date for whoever
-    // watches from `limits.poll`.
+    // The heuristics must be admissible. `statistics` is kept up to date for whoever watches from `limits.poll`.
     FindPlans(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
               SearchStatistics& statistics);  // throws Stopped
 
-    // Search to the end.
-    SearchResult run();
-
-    bool advance(std::uint64_t work) override;
     std::uint64_t work() const override;
-    void set_upper_bound(Cost bound) override {
-        options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound));
-    }
-    Cost lower_bound() const override { return statistics_.lower_bound.value_or(0); }
-    std::optional<Cost> best() const override { return statistics_.best; }
+    void set_upper_bound(Cost bound) override { incumbent_.cutoff = std::min(incumbent_.cutoff, bound); }
+    Cost lower_bound() const override { return priority_.is_f() ? statistics_.lower_bound.value_or(0) : proven(); }
     SearchResult result() override;
 
 private:
-    std::optional<StopReason> search(std::uint64_t most_work);
-    void start();
-    Cost proven() const;
-    Cost cutoff() const;
-    // Whether priorities are lower bounds.
-    bool is_exact() const { return options_.algorithm == SearchAlgorithm::AStar; }
+    std::optional<StopReason> search(std::uint64_t most_work) override;
     bool is_stale(const OpenList<NodeId>::Entry& entry) const;
-    bool evaluate(NodeId id, Cost f);
-    std::optional<Cost> ask(SelectiveHeuristic& heuristic, NodeId id);
-    bool can_end(const SearchNode& node);
-    std::uint64_t work_of_a_node(const SelectiveHeuristic& heuristic) const;
+    bool keeps_priority(NodeId id, Cost priority);
     void expand(NodeId id);
-    void note_branching(NodeId id);
     std::optional<NodeId> follow(NodeId id);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
-    bool is_as_good(const SearchNode& known, Cost g, NetworkId network);
-    Cost cheap_bound(const SearchNode& parent, Cost cost, NetworkId network);
-    Cost priority(NodeId id) const;
-    bool is_beyond(Cost g, Cost h);
-    bool cannot_improve(const SearchNode& node);
     void push(NodeId id);
-    Cost open_bound() const;
+    std::uint64_t work_without_heuristics() const;
+    Cost proven() const;
 
-    const PricedProblem& priced_;
-    const AnalysedProblem& problem_;
     SearchOptions options_;
-    Limits& limits_;
-    SearchStatistics& statistics_;
     Progression progression_;
     NetworkBounds bounds_;
-    std::optional<Ending> ending_;
-    ForcedCycle forced_cycle_;
-    std::vector<SelectiveHeuristic> heuristics_;
+    HeuristicSequence heuristics_;
     SearchSpace nodes_;
+    Priority priority_;
+    ForcedSteps forced_steps_;
     OpenList<NodeId> open_;
-    std::optional<NodeId> goal_;  // of the best plan so far
-    std::optional<StopReason> stop_;
-    bool is_done_ = false;
-    bool is_expanding_ = false;    // in the middle of an expansion, where a node is in no list
-    bool has_overflowed_ = false;  // there may be plans that cost `kMostCost` or more
+    Incumbent incumbent_;
+    std::optional<NodeId> popped_;  // and not yet expanded
+    std::uint64_t decisions_ = 0;   // nodes expanded that were not passed through
     std::vector<Successor> successors_;
-    std::vector<Successor> forced_;
-    std::uint64_t decided_ = 0;  // nodes expanded that had several successors, or looked so
 };
 
 }  // namespace relax

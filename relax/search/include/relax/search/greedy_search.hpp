@@ -15,6 +15,7 @@
 #include "relax/networks/network_bounds.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/forced_cycle.hpp"
+#include "relax/search/incumbent.hpp"
 #include "relax/search/open_list.hpp"
 #include "relax/search/search_options.hpp"
 #include "relax/search/search_result.hpp"
@@ -36,29 +37,21 @@ public:
     GreedySearch(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                  SearchStatistics& statistics);
 
-    bool advance(std::uint64_t work) override;
     std::uint64_t work() const override;
-    void set_upper_bound(Cost bound) override {
-        options_.upper_bound = std::min(bound, options_.upper_bound.value_or(bound));
-    }
+    void set_upper_bound(Cost bound) override { incumbent_.cutoff = std::min(incumbent_.cutoff, bound); }
     // All that is proven is what the root's bound says.
     Cost lower_bound() const override { return proven_; }
-    std::optional<Cost> best() const override { return statistics_.best; }
     SearchResult result() override;
 
 private:
-    std::optional<StopReason> search(std::uint64_t most_work);
+    std::optional<StopReason> search(std::uint64_t most_work) override;
     NodeId pop();
     std::optional<NodeId> follow(NodeId node);
     std::optional<Cost> evaluate(NodeId node);
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
     void push_successors(NodeId parent, Cost h);
 
-    const PricedProblem& priced_;
-    const AnalysedProblem& problem_;
     SearchOptions options_;
-    Limits& limits_;
-    SearchStatistics& statistics_;
     Progression progression_;
     NetworkBounds bounds_;
     std::unique_ptr<Heuristic> heuristic_;
@@ -71,10 +64,7 @@ private:
     bool explores_ = false;             // the next node comes from the type-based list
     std::optional<Cost> least_h_;
     Cost proven_ = 0;
-    std::optional<NodeId> goal_;  // of the cheapest plan so far
-    std::optional<StopReason> stop_;
-    bool is_done_ = false;
-    bool has_overflowed_ = false;  // there may be plans that cost `kMostCost` or more
+    Incumbent incumbent_;
     std::uint64_t most_evaluations_;
     std::uint64_t most_work_ = std::numeric_limits<std::uint64_t>::max();
     ForcedCycle forced_cycle_;

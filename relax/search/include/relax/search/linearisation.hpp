@@ -28,7 +28,7 @@ public:
           progression_(progression),
           bounds_(bounds),
           limits_(limits),
-          nodes_(progression.networks()) {}
+          nodes_(progression.networks(), bounds) {}
 
     struct Order {
         std::vector<SearchStep> steps;

@@ -24,7 +24,7 @@ struct SearchNode {
     std::uint8_t heuristics_asked;  // how many; `h` includes what they told
     bool is_expanded;               // at its present g
     bool is_forced;                 // its parent has no other successor
-    bool is_followed;               // there are several ways to go on
+    bool has_several_successors;    // as far as is known
 
     static constexpr MethodId kExecuted{std::numeric_limits<std::uint32_t>::max()};
 

@@ -103,7 +103,6 @@ private:
     void add_plan(LabelId id);
     bool keep(LabelId id);
     ActionListId list_after(LabelId label, std::optional<ActionId> action);
-    Cost cheap_bound(const Node& parent, Cost cost, NetworkId network);
     NodeId find_node(StateId state, NetworkId network);
     std::optional<LabelId> find_label(NodeId node, ActionListId actions) const;
     LabelId add_label(const Label& label);
