@@ -15,7 +15,7 @@ namespace relax {
 
 namespace {
 
-constexpr std::uint32_t kMostSteps = 1000;  // of a look for a state, which then counts as found
+constexpr std::uint32_t kMostSteps = 1000;  // of a search for a state; then one counts as found
 
 // Looks for a state in which none of some cost parts is due: every alternative of theirs needs a literal that is false.
 class StateWithout {

@@ -58,7 +58,7 @@ Cost LmCut::take_off_cut() {
     return least;
 }
 
-// The goal zone: the most expensive goal, and all supporters of free operators that achieve a fact of the zone.
+// The goal zone: the most expensive goal, and all supporters of operators without a cost that achieve a fact of it.
 void LmCut::mark_goal_zone(const RelaxedTask& task) {
     entrances_.clear();
     pending_.clear();
@@ -81,7 +81,7 @@ void LmCut::mark_goal_zone(const RelaxedTask& task) {
     }
 }
 
-// The cut: owners of operators that lead, along supporters, from what the state reaches before the goal zone into it.
+// The cut: owners of operators that lead into the goal zone from a fact that the state reaches outside it.
 void LmCut::find_cut(const RelaxedTask& task, Cost goal_cost) {
     cut_.clear();
     for (const OperatorId op : entrances_) {
@@ -93,12 +93,12 @@ void LmCut::find_cut(const RelaxedTask& task, Cost goal_cost) {
     }
 }
 
-// Whether the state reaches the fact along supporters without the goal zone.
+// Whether the state reaches the fact along supporters outside the goal zone.
 bool LmCut::is_reached_outside(const RelaxedTask& task, RelaxedFact fact, Cost goal_cost) {
     if (zone(fact) != Zone::Unknown) {
         return zone(fact) == Zone::Reached;
     }
-    // Until a way is found, the facts looked at count as unreached; if none is, they are.
+    // Until a path is found, the facts looked at count as unreached; if none is found, they are.
     bool is_reached = hmax_.cost(fact) < goal_cost;
     marks_[fact] = {rounds_, Zone::Unreached};
     pending_.assign(1, fact);

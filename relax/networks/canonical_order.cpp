@@ -13,8 +13,8 @@ std::span<const std::uint32_t> CanonicalOrder::of(const OrderedTasks& network) {
     colour(network);
     refine(network);
     sort();
-    // Split what refinement could not tell apart, one occurrence at a time. Twins need no split: any order of them is
-    // the same.
+    // Individualise: give one of several occurrences of the same colour a colour of its own, and refine again. Twins,
+    // which exchange places by an automorphism, may stay in any order.
     for (std::size_t at = 0; at + 1 < order_.size();) {
         const std::uint32_t here = order_[at];
         std::size_t end = at + 1;

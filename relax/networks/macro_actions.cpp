@@ -43,7 +43,7 @@ std::optional<MacroId> MacroActions::prepend(ActionId action, MacroId rest) {
     return entry->second == kImpossible ? std::nullopt : std::optional(entry->second);
 }
 
-// The action alone; what it makes may hold before.
+// The action alone. What it makes may hold before.
 MacroActions::Macro MacroActions::of_action(ActionId action) const {
     Macro macro;
     for (const FactId fact : problem_.preconditions[action]) {

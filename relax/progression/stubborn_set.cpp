@@ -34,7 +34,7 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     std::vector<std::uint64_t> best;
     for (const Occurrence& seed : unconstrained) {
-        // What closes around one occurrence of a task closes around another one, as a rule.
+        // Two occurrences of one task lead to similar sets, as a rule: one is enough.
         const bool is_tried = std::any_of(unconstrained.data(), &seed,
                                           [&](const Occurrence& earlier) { return earlier.task == seed.task; });
         if (is_tried || !problem_.is_primitive(seed.task) || !close(network, state, seed.index)) {
@@ -82,8 +82,8 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
                 put(other);
                 continue;
             }
-            // Something unconstrained is before it and not a member, else it would be after one or unconstrained
-            // itself.
+            // It is constrained, so that something unconstrained is before it; and that is no member, or it would be
+            // after a member.
             const std::optional<std::uint32_t> first = open_before(network, other);
             if (!first) {
                 return false;
@@ -113,11 +113,11 @@ void StubbornSet::put(std::uint32_t index) {
     }
 }
 
-// Whether executing the other task before the member may bar, enable or change the member, or the reverse.
+// Whether the other task violates (1) or (2) for this member.
 bool StubbornSet::concerns(const TaskProfile& other, std::uint32_t member, std::span<const std::uint64_t> state) const {
     const TaskProfile& action = *occurring_[member];
     if (!has_bit(is_applicable_, member)) {
-        // One precondition that is false is enough: nobody else makes it true.
+        // The particular precondition of (2): the first that is false.
         const auto open =
             std::ranges::find_if(action.preconditions, [state](Literal literal) { return !holds(state, literal); });
         return other.makes.contains(*open);

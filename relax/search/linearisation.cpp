@@ -31,7 +31,7 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
     }
     // What was left out for its cost may be reached at a lower one from another network.
     for (std::size_t at = 0; !has_overflowed_ && at < met_.size(); ++at) {
-        seen_[met_[at]] = kHopeless;
+        seen_[met_[at]] = kDeadEnd;
     }
     return std::nullopt;
 }
@@ -46,7 +46,7 @@ void Linearisation::reach(NodeId from, Cost g, const Successor& successor) {
     if (!known) {
         seen_.push_back(call_);
         met_.push_back(id);
-    } else if (seen_[id] == kHopeless || (seen_[id] == call_ && nodes_[id].g <= g)) {
+    } else if (seen_[id] == kDeadEnd || (seen_[id] == call_ && nodes_[id].g <= g)) {
         return;
     } else if (seen_[id] != call_) {
         seen_[id] = call_;

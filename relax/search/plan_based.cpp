@@ -84,8 +84,8 @@ SearchResult PlanBased::run() {
 
 // Search until the best solution is as good as anything open, or nothing is open. Says why it stopped before that.
 std::optional<StopReason> PlanBased::search() {
-    generate(0, progression_.initial_network(), {});
-    while (!open_.is_empty()) {
+    generate(0, progression_.initial_network(), {});  // 1 to 7
+    while (!open_.is_empty()) {                       // 8
         if (const auto stop = limits_.check()) {
             return stop;
         }
@@ -93,11 +93,11 @@ std::optional<StopReason> PlanBased::search() {
         if (solution_ && solution_->cost <= open_.top().priority) {
             return std::nullopt;
         }
-        const NodeId here = open_.pop().id;
+        const NodeId here = open_.pop().id;  // 9
         look_at(nodes_[here].network);
         if (!compounds_.empty()) {
             expand(here);
-        } else if (const auto stop = execute(here)) {
+        } else if (const auto stop = execute(here)) {  // 10
             return stop;
         }
     }
@@ -129,7 +129,7 @@ void PlanBased::expand(NodeId node) {
         for (const MethodId method : problem_.methods_of(occurrence.task)) {
             limits_.stop_if_reached();
             generate(node, progression_.networks().decompose(network, occurrence.index, method),
-                     {occurrence.index, method});
+                     {occurrence.index, method});  // 12, 13
         }
     }
 }
@@ -139,11 +139,11 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
     if (network >= is_known_.size()) {
         is_known_.resize(std::max<std::size_t>(network + 1, 2 * is_known_.size()), false);
     }
-    if (is_known_[network]) {
+    if (is_known_[network]) {  // 20
         return;
     }
-    is_known_[network] = true;
-    const Cost f = bounds_[network];
+    is_known_[network] = true;        // 22
+    const Cost f = bounds_[network];  // 14 to 19
     look_at(network);
     Cost h = 0;
     for (const Occurrence& occurrence : compounds_) {
@@ -160,6 +160,7 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
     if (options_.upper_bound && f >= *options_.upper_bound) {
         return;
     }
+    // 20, 21
     open_.push(static_cast<NodeId>(nodes_.size()), f, h, static_cast<std::uint32_t>(tasks_.tasks.size()));
     nodes_.push_back({network, parent, step});
 }

@@ -24,7 +24,11 @@ bool has_model(HeuristicKind kind) { return kind != HeuristicKind::Blind && kind
 
 Portfolio::Portfolio(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
                      SearchStatistics& statistics)
-    : priced_(priced), limits_(limits), statistics_(statistics), upper_bound_(options.upper_bound) {
+    : priced_(priced),
+      limits_(limits),
+      statistics_(statistics),
+      poll_(std::move(limits.poll)),
+      upper_bound_(options.upper_bound) {
     const std::uint64_t model = kPreparation * (priced.problem.action_count() + priced.problem.method_count());
     for (const std::vector<SearchOptions>& stages : options.members) {
         std::uint64_t models = has_model(stages.front().heuristic) ? 1 : 0;
@@ -34,14 +38,16 @@ Portfolio::Portfolio(const PricedProblem& priced, const SearchOptions& options, 
     for (Member& member : members_) {
         greedy_ = member.is_greedy() ? &member : greedy_;
     }
+    // Whoever watches sees all searches together.
+    limits_.poll = [this] {
+        add_up();
+        return poll_ && poll_();
+    };
 }
 
+Portfolio::~Portfolio() { limits_.poll = std::move(poll_); }
+
 SearchResult Portfolio::run() {
-    // Whoever watches sees all searches together.
-    limits_.poll = [this, poll = std::move(limits_.poll)] {
-        add_up();
-        return poll && poll();
-    };
     bool is_done = find_plan();
     for (std::uint64_t work = kFirstTurn; !is_done; work *= 2) {
         for (Member& member : members_) {
@@ -58,8 +64,8 @@ SearchResult Portfolio::run() {
     return gather();
 }
 
-// Let the greedy search, if there is one, do as much as all others have done, or end once it has a plan. Returns
-// whether that is the end of all.
+// Let the greedy search, if there is one, do as much work as all others have done, or end once it has a plan. Returns
+// whether the portfolio ends with that.
 bool Portfolio::find_plan() {
     if (greedy_ == nullptr) {
         return false;
@@ -72,7 +78,7 @@ bool Portfolio::find_plan() {
            (greedy_->search && greedy_->search->best() && take_turn(*greedy_, kNoEnd));
 }
 
-// Let the member search until it has done so much in all. Returns whether that is the end of all.
+// Let the member search until it has done so much work in all. Returns whether the portfolio ends with that.
 bool Portfolio::take_turn(Member& member, std::uint64_t work) {
     while (member.work() < work && !member.has_given_up) {
         if (!member.search && !begin_stage(member)) {
@@ -117,7 +123,7 @@ bool Portfolio::begin_stage(Member& member) {
     return !stop_;
 }
 
-// Another one has proven more, and has not done more.
+// Another member has proven more, with no more work.
 bool Portfolio::lags(const Member& member, std::uint64_t work) const {
     return std::ranges::any_of(members_, [&](const Member& other) {
         return &other != greedy_ && member.search && other.search &&

@@ -8,12 +8,14 @@
 namespace relax {
 
 // Prices for lower bounds, which look at actions without a state: as much as possible of the prices of cost parts is
-// moved to the prices of their actions. (Cost shifting, as in weighted constraint satisfaction: Schiex 2000.)
+// moved to the prices of their actions (cost shifting, as in weighted constraint satisfaction: Schiex 2000).
 //
-// Where one of several parts of an action is due in every state, as with a condition and its negation, the least of
-// their prices is taken off all of them and added to the price of the action. In a state in which k >= 1 of them are
-// due, the action then costs k - 1 times that amount less than before, so that no action costs more in any state; and
-// if exactly one of them is always due, it costs the same in all. Throws Stopped.
+// Take several parts of an action of which one at least is due in every state, as with a condition and its negation.
+// The least of their prices is subtracted from each of them and added to the price of the action. In a state in which
+// k >= 1 of them are due, the action then costs k - 1 times that amount less than before: no action costs more in any
+// state, so that a lower bound of the shifted costs is one of the costs; and where exactly one is due in each state,
+// nothing is lost. "Every state" means every truth of facts, reachable or not, so that the test is a small
+// satisfiability problem; one that takes too long counts as not shown. Throws Stopped.
 Prices shift_costs(const GroundProblem& problem, Prices prices, Limits& limits);
 
 }  // namespace relax

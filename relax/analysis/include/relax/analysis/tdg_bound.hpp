@@ -11,10 +11,15 @@
 
 namespace relax {
 
-// The decomposition-graph bound: by TaskId, the least cost of the actions of any finite decomposition, states ignored.
-// It is the least fixed point of the paper's Algorithms 1 and 2 (best decomposition without a repeated task on a path),
-// found by Knuth's generalisation of Dijkstra's algorithm (1977). `kInfinity` where there is no finite
-// decomposition. Throws Stopped.
+// The decomposition-graph bound: by TaskId, the least cost of the actions of any finite decomposition, states ignored;
+// `kInfinity` where there is none. It is the value that the paper's Algorithms 1 and 2 mean (the best decomposition
+// without a repeated task on a path), as the fixed point that Knuth's generalisation of Dijkstra's algorithm finds
+// (1977). Throws Stopped.
+//
+// Exact: costs are not negative, so that a method's sum is at least each of its subtasks' values, and replacing the
+// decomposition of a task by that of the same task further down makes no plan more expensive. Hence tasks become final
+// in the order of their values. A lower bound of what a network costs: each of its tasks is decomposed by itself, and
+// an action costs at least its own price in every state.
 std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> costs, Limits& limits);
 
 }  // namespace relax

@@ -15,11 +15,18 @@ namespace relax {
 
 // The max heuristic (Bonet and Geffner 2001): the cost of a fact is that of its cheapest achiever, the cost of an
 // operator's preconditions is that of the most expensive one. Computed as a generalised Dijkstra search.
-// Keeps what LM-cut needs: each operator's supporter (the precondition of that highest cost), and an incremental update
+//
+// Admissible, also where an action's operators share an owner, which pays for each on a path: by induction along a plan,
+// a fact that holds after some of its steps costs at most what these steps cost. The step that made it was executed in a
+// state whose facts cost no more than the steps before it, and it cost what its operator costs, with the cost parts
+// that were due there.
+//
+// Keeps what LM-cut needs: each operator's supporter (the precondition of the highest cost), and an incremental update
 // for operators that become cheaper.
 //
-// Who reads the facts of the state is never looked up: an operator with such preconditions counts what it misses when
-// it wakes up, at the start (composition model) or when its action may start (decomposition model).
+// The readers of a state's facts are never looked up, since most of a model reads some. An operator with such
+// preconditions counts those that are not yet reached when it wakes up: at the start (composition model) or when its
+// action may start (decomposition model).
 class HMax {
 public:
     HMax(const RelaxedModel& model, Limits& limits);
@@ -54,7 +61,7 @@ private:
         RelaxedFact supporter;
         std::uint32_t missing;  // preconditions not yet reached
         std::uint32_t epoch;
-        std::uint32_t count;  // of the preconditions; 0 for an operator that must be woken up
+        std::uint32_t count;  // of the preconditions; 0 for an operator that wakes up
     };
     using QueueEntry = std::pair<Cost, RelaxedFact>;
 

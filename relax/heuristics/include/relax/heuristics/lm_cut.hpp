@@ -11,14 +11,25 @@
 
 namespace relax {
 
-// The landmark-cut heuristic (Helmert and Domshlak 2009). Each round finds a set of owners (actions, or methods) one of
-// which every plan of the relaxed task needs, adds the least cost among them, and takes it off all of them, until the
-// goals are free.
+// The landmark-cut heuristic (Helmert and Domshlak 2009). Each round finds a cut, a set of owners (actions, methods or
+// cost parts) one of which every plan of the relaxed task uses, adds the least cost among them to the estimate, and
+// subtracts it from all of them, until the goals cost nothing.
 //
-// A round looks backward from the goal alone: the goal zone are the facts that lead to the most expensive goal for
-// free, along supporters, and the cut are the operators that lead into it from a fact outside that the state reaches.
-// Facts of the zone cost as much as the goal at least. A cheaper fact is therefore reached without the zone, as every
-// fact is by way of cheaper ones; only for more expensive facts must a path be looked for.
+// Admissible: a plan of the relaxed task uses an owner of each cut. Charge each cut's amount to one that it uses. What
+// an owner is charged in all is at most its cost, from which each amount was subtracted when its cut was made; and the
+// plan pays an owner's cost once at least, however many of its operators it uses. So the sum of the amounts is at most
+// what the plan costs.
+//
+// A round looks at the graph with an edge for each operator from its supporter (the most expensive precondition) to
+// what it adds. The goal zone are the facts from which the most expensive goal is reached by operators without a cost.
+// The cut are the owners of the operators that lead into the zone from a fact that the state reaches outside it. It is a
+// landmark: follow a plan's operators backward from that goal, from each to its supporter. The path comes from a fact of
+// the state, which costs nothing and is outside the zone, and where it enters the zone for the first time, it does so
+// by an operator of the cut.
+//
+// That the state reaches a fact outside the zone needs a search for few facts only. Facts of the zone cost at least as
+// much as the goal, since operators without a cost make nothing more expensive than their supporter. A cheaper fact has
+// a path through facts that cost no more than itself, by its cheapest achievers: one outside the zone.
 class LmCut {
 public:
     static constexpr bool kReadsOperators = true;

@@ -12,8 +12,12 @@
 namespace relax {
 
 // Finds an order of the occurrences that depends on the network's structure alone, as far as colour refinement with
-// individualisation can tell: by number of predecessors, then by colour. Interchangeable occurrences may come in any
-// order.
+// individualisation can tell (as in McKay's nauty, 1981, but only along one branch): by number of predecessors, then by
+// colour. The order refines the network's, since predecessors have fewer predecessors.
+//
+// Nothing but work depends on how canonical it is. Two networks are taken for the same only if, each in its order, they
+// are equal task by task and pair by pair, which is an isomorphism. Isomorphic ones that come in different orders (equal
+// colours that are no automorphism, or two colours with one hash) are two networks, and are searched twice.
 class CanonicalOrder {
 public:
     explicit CanonicalOrder(Limits& limits) : limits_(limits) {}
@@ -21,7 +25,7 @@ public:
     // Returns the old index for each new one; valid until the next call. Throws Stopped.
     std::span<const std::uint32_t> of(const OrderedTasks& network);
 
-    // How many occurrences, pairs of the order and words of it have been looked at so far, again and again.
+    // How many occurrences, pairs of the order and words of it have been looked at so far, with repetitions.
     std::uint64_t work() const { return work_; }
 
 private:

@@ -18,22 +18,33 @@ namespace relax {
 
 using MacroId = std::uint32_t;
 
-// Sequences of actions as one action: what it needs before and what it has changed after. Sequences that need and
-// change the same are the same macro-action, whatever they cost. No state that can be reached tells them apart.
+// Sequences of actions without conditional effects as one action each: the literals that it needs before, and those that
+// it has made true after. Sequences that need and make the same literals are the same macro-action, whatever they cost.
+//
+// (1) A sequence can be executed in a state that can be reached only if all that is needed holds there, and then it can:
+//     an action that needs what an earlier one has made false, or literals needed together of which two never hold
+//     together (Mutexes), make the sequence impossible.
+// (2) In such a state, executing it makes true exactly `made`. Literals that hold before anyway are left out: those that
+//     are needed, and those whose negation never holds together with one that is needed.
+//
+// By induction on the length of the sequence, where a literal that an action needs is needed of the sequence unless an
+// earlier action makes it, and of two that make a fact and its negation the later one counts. Where the mutexes were
+// used, (2) claims something of states that cannot be reached, which does no harm. Hence two sequences with the same
+// macro-action can be executed in the same states that can be reached, and lead to the same states.
 class MacroActions {
 public:
-    static constexpr MacroId kNothing = 0;  // the empty sequence, and all that need and change nothing
+    static constexpr MacroId kNothing = 0;  // the empty sequence, and all that need and make nothing
 
     MacroActions(const AnalysedProblem& problem, Limits& limits);  // throws Stopped
 
     // Whether an action can be part of one: neither its effects nor its cost have conditions.
     bool fits(ActionId action) const;
 
-    // The macro-action of the action and then those of another one; nothing where they can never be executed so.
+    // The macro-action of the action and then another one; nothing where that is impossible.
     std::optional<MacroId> prepend(ActionId action, MacroId rest);
 
 private:
-    // Both sorted; what is changed does not hold before for certain.
+    // Both sorted; what is made does not hold before for certain.
     struct Macro {
         std::vector<Literal> needed;
         std::vector<Literal> made;

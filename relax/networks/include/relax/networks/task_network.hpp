@@ -59,10 +59,11 @@ public:
     virtual Cost bound(NetworkId network, std::span<const Cost> task_bounds, const FlatArray<Cost>& by_network,
                        FlatArray<Cost>& by_component) const = 0;
     virtual std::uint32_t size(NetworkId network) const = 0;
-    // Networks of one form can be accomplished in the same ways but for actions that come in another network's place:
-    // from there the bounds, and so the costs to come, differ by what these cost.
+    // Networks of one form, each with a state that it can be reached with, have the same plans but for some actions
+    // between the same compound tasks, if the states agree as far as either network reads them. The cheapest plan of one
+    // costs `bound(one) - bound(other)` more than that of the other.
     virtual FormId form(NetworkId network) const { return network; }
-    // No state that can be reached lets the network's actions be executed.
+    // Whether the network has no plan from any state that can be reached, since some actions of it exclude each other.
     virtual bool is_impossible(NetworkId /*network*/) const { return false; }
 
     // What it has taken so far to make networks, in tasks and words of their order that were looked at; 0 where that

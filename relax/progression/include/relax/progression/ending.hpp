@@ -12,13 +12,18 @@
 
 namespace relax {
 
-// How a network in partial order can end: its last actions, found backward from the end as far as nothing but actions
-// can come last. Where no order of them can be executed, the network leads nowhere, whatever its compound tasks become.
+// How a network in partial order can end: its last actions in every order that they may have, found backward.
+//
+// The last action that is executed belongs to a task that nothing is ordered after: one of the network's last tasks.
+// If all of these are actions, it is one of them; without it, the same holds of the rest. So every plan ends in a
+// sequence of actions that this backward search meets, up to the first place where a compound task may come. Where each
+// such sequence is impossible (MacroActions: no state that can be reached lets it be executed), there is no plan,
+// whatever the compound tasks become.
 class Ending {
 public:
     Ending(const AnalysedProblem& problem, Limits& limits) : problem_(problem), macros_(problem, limits) {}
 
-    // False: no state that can be reached lets the network be executed. True says nothing.
+    // False: the network has no plan. True says nothing.
     bool is_possible(const OrderedTasks& network);
     // Whether it should be asked about the next network: rarely, where it has hardly ever told anything.
     bool is_worth_asking();

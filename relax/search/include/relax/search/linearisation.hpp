@@ -18,7 +18,8 @@ namespace relax {
 
 // Executability of primitive networks (the paper's Definition 4.2): finds the cheapest order of the tasks that respects
 // the network's and can be executed from the initial state. An A* search of its own, since the question is NP-complete.
-// Pairs of state and rest of a network that have proven hopeless are remembered from one network to the next.
+// States and rests of networks that no order completes are remembered from one network to the next: what can still be
+// executed does not depend on how they were reached.
 //
 // A choice between the cases of an action counts as primitive: which case it is depends on the state.
 class Linearisation {
@@ -49,8 +50,8 @@ private:
     NetworkBounds& bounds_;
     Limits& limits_;
     SearchSpace nodes_;
-    SegmentedArray<std::uint32_t> seen_;  // by NodeId: the latest call that met the node, or kHopeless
-    static constexpr std::uint32_t kHopeless = 0;
+    SegmentedArray<std::uint32_t> seen_;  // by NodeId: the latest call that met the node, or kDeadEnd
+    static constexpr std::uint32_t kDeadEnd = 0;
     std::uint32_t call_ = 0;
     bool has_overflowed_ = false;
     OpenList<NodeId> open_;

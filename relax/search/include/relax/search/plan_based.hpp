@@ -19,26 +19,28 @@
 
 namespace relax {
 
-// Plan-based search (the paper's Algorithm 3): A* over task networks, without a state. A network's f is the sum of its
-// primitive tasks' costs (g) and of its compound tasks' decomposition-graph bounds (h); decomposing a task gives the
-// next ones. A primitive network is a solution if some order of it can be executed. Where costs depend on the state, g
-// is a lower bound: the network is put back with the cost of its cheapest order and returned when it is popped again.
+// The paper's Algorithm 3, the plan-based solver: A* over task networks, without a state. The numbers in plan_based.cpp
+// are the lines of its pseudo-code; src/statehtn/reference/plan_based.py has the same. A network's f is the sum of its
+// primitive tasks' costs (g) and of its compound tasks' decomposition-graph bounds (h). Where it differs from the paper,
+// and why:
 //
-// Networks with a precondition that nothing can make true any more are left out (see OpenPreconditions); the paper
-// finds out when all their tasks are primitive.
-//
-// Decomposing a task never bars another decomposition, so that it is enough to branch over one compound task: the one
-// with the fewest methods. `SearchOptions::branches_over_all` tries every task, as the paper writes it.
+// - Lines 10 and 11: a primitive network is a solution if some order of it can be executed (Linearisation). Where costs
+//   depend on the state, f is a lower bound of what that costs. The best solution is kept, and returned when no open
+//   network has a lower f.
+// - Line 12: decomposing a task excludes no decomposition of another one, so that any plan's decompositions can be made
+//   in any order, and it is enough to branch over one compound task, the one with the fewest methods.
+//   `SearchOptions::branches_over_all` tries every task, as the paper writes it.
+// - Line 20: networks with a precondition that nothing can make true any more are left out (OpenPreconditions); the
+//   paper finds out when all their tasks are primitive.
 class PlanBased {
 public:
-    // Of the options, it reads the heuristic (Tdg or Blind), the upper
-    // bound and those that name PlanBased.
+    // Of the options, it reads the heuristic (Tdg or Blind), the upper bound and those that name PlanBased.
     PlanBased(const PricedProblem& priced, const SearchOptions& options, Limits& limits, SearchStatistics& statistics);
 
     SearchResult run();
 
 private:
-    // A network and a way to it. All ways to a network have the same f.
+    // A network and a path to it. All paths to a network have the same f.
     struct Node {
         NetworkId network;
         NodeId parent;  // itself for the root

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,20 +17,28 @@
 
 namespace relax {
 
-// Searches that take turns and share what they have found and proven, `SearchOptions::members`. Which one pays is not
-// to be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in milliseconds
-// what landmark cuts do not in minutes; elsewhere it is the other way round. The first one to end, ends all.
+// Searches that take turns and share what they have found and proven, `SearchOptions::members`. Which one is best cannot
+// be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in milliseconds
+// what landmark cuts do not in minutes; elsewhere it is the other way round. When one has ended, all have.
+//
+// Sound: each member's bound holds for every plan that costs less than its upper bound, which is the user's or the cost
+// of a plan that some member has found. So no plan is cheaper than the least of the best plan's cost and any member's
+// bound, and the greatest of the bounds counts. A member that ends without a plan of its own has proven that no plan is
+// cheaper than its upper bound, unless it has given up.
 //
 // A turn is an amount of work, not of time, so that two runs are the same. Searches with a relaxed model begin when the
-// one without has done as much as it takes to make the model. Who has proven less than another one has with as much
-// work gets a small share only.
+// one without has done as much work as it takes to make the model. A member that has proven less than another one has
+// with as much work gets a small share only.
 //
-// If a member is a greedy search, any plan is an end. It has as much work as all others together, and a start before
+// If a member is a greedy search, any plan ends all. It gets as much work as all others together, and begins before
 // them, so that a plan comes no later than in twice the time that either would take alone.
 class Portfolio {
 public:
     // As for FindPlans.
     Portfolio(const PricedProblem& priced, const SearchOptions& options, Limits& limits, SearchStatistics& statistics);
+    ~Portfolio();
+    Portfolio(const Portfolio&) = delete;
+    Portfolio& operator=(const Portfolio&) = delete;
 
     SearchResult run();
 
@@ -57,9 +66,10 @@ private:
     const PricedProblem& priced_;
     Limits& limits_;
     SearchStatistics& statistics_;
+    std::function<bool()> poll_;  // the caller's
     std::optional<Cost> upper_bound_;
     std::vector<Member> members_;
-    Member* greedy_ = nullptr;  // the member that is
+    Member* greedy_ = nullptr;  // the greedy search, if there is one
     Member* ended_ = nullptr;   // the member that has ended all
     std::optional<StopReason> stop_;
 };
