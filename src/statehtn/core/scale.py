@@ -1,25 +1,27 @@
-"""Scales of fixed point: what a unit of cost is, and from which price on prices are no longer told apart.
+"""Scales of fixed point: what a unit of cost is, and the cap from which on prices are no longer distinguished.
 
 A search adds whole units. On a scale a price `p`, of which at least `q` is certain (`RiskCost`), is `floor(q / unit)`
-units, or one unit more than the cap where that is less. What follows holds for every utility under which prices are
+units, or one unit more than the cap where that is less. The following holds for every utility under which prices are
 never negative and add up along a plan, and for parts of prices that are due in some states only:
 
-1. No price is rounded up. So no plan costs more on a scale than it does: what a search proves to be the least cost of
-   any plan, or of any plan that is not among those found, is a bound in truth, on whatever scale it was proven.
+1. No price is rounded up, so that no plan costs more on a scale than in truth. What a search proves to be the least
+   cost of any plan, or of any plan that is not among those found, is therefore a lower bound of the true cost, whatever
+   the scale.
 2. Prices on a scale are those of another problem with the same plans, all finite and added exactly. All that a search
-   does to its costs (bounds that are inherited or shifted, landmark cuts) is sound in that problem.
-3. Let the cap be what the best plan known costs. A plan with a price beyond the cap is not better. Any other plan of n
-   priced things loses less than n units by rounding, and what its prices are uncertain by. So the least cost on the
-   scale is within that of the truth, and with `BITS` bits for the best plan it is as good as equal to it.
-4. Let B be proven to be less than any plan costs, and the cap `RAISE * B`, below the best plan known. If the cheapest
-   plan on the scale costs less than the cap, it has no price beyond it, and (3) holds for it on the next scale. Else
-   the cap is a new bound, `RAISE` times the old one. Either way a few scales lead to one that has the last word.
+   does with its costs (bounds that are inherited or shifted, landmark cuts) is sound in that problem.
+3. Let the cap be the cost of the best plan known. A plan with a price beyond the cap is not better. Any other plan with
+   n prices loses less than n units by rounding, and what its prices are uncertain by. So the least cost on the scale
+   differs from the true one by less than that, which with `BITS` bits for the best plan is far below `TOLERANCE`.
+4. Let B be a lower bound of all plans, and the cap `RAISE * B`, below the cost of the best plan known. If the cheapest
+   plan on the scale costs less than the cap, it has no price beyond it, and (3) holds for it on the next scale.
+   Otherwise the cap is a new lower bound, `RAISE` times the old one. Either way a few scales lead to one on which (3)
+   holds for the best plan.
 
-A scale on which cheap prices are 0 can make a search dive for ever into recursion that is free of charge there, below
-the cost of the plan that it is about to find. So there are none on the first scale, with nothing proven, and the cap is
-raised step by step: then a unit is at most `B / 2^40`, and plans that are better by less than 2^6 of these units,
-`2^-34` of their cost, are not asked for where cheap prices are 0 (`worth_while`). A search in exact numbers would go
-down as many steps of such recursion before it could rule out a plan that is better by more.
+On a scale on which cheap prices are 0, recursion may cost nothing, and a search may follow it without end below the
+cost of the plan that it is about to find. So on the first scale, when no bound is proven, no positive price is 0, and
+the cap is raised step by step. Then a unit is at most `B / 2^40`, and where cheap prices are 0, plans that are better
+by less than 2^6 units, `2^-34` of their cost, are not asked for (`worth_while`). Exact costs would not avoid this: a
+search would go through as many steps of the recursion before it could rule out a plan that is better by more.
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ TOLERANCE = 2.0**-30
 BITS = 50
 """Of a cost in units that is to be told apart from others by far less than `TOLERANCE`."""
 MOST_UNITS = 2**62 - 1
-"""Where sums end in the core: it stands for every larger one, too."""
+"""The largest sum in the core; it stands for every larger one, too."""
 MOST_BITS = 59
 STEP_BITS = 32  # so many more than the number of steps takes: they lose less than a fourth of the tolerance
 RAISE = 2.0**10
