@@ -1,6 +1,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -10,7 +12,9 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bindings.hpp"
@@ -33,10 +37,10 @@ using Ordering = std::vector<std::pair<std::size_t, std::size_t>>;
 // A heuristic on its own, for states and networks of the caller's choice.
 class Evaluator {
 public:
-    Evaluator(const relax::PricedProblem& priced, relax::HeuristicKind kind)
+    Evaluator(const relax::PricedProblem& priced, std::string_view heuristic)
         : problem_(priced.problem),
           bounds_(priced.task_bounds(limits_)),
-          heuristic_(relax::make_heuristic(kind, priced, limits_)) {}
+          heuristic_(relax::heuristic_named(heuristic).make(priced, limits_)) {}
 
     // `ordering`: pairs of places in `tasks`, transitively closed; none where nothing is known of the order. The
     // heuristic sees the order as in a search: in a totally ordered problem, as that of the tasks as they stand.
@@ -84,26 +88,43 @@ private:
     std::unique_ptr<relax::Heuristic> heuristic_;
 };
 
-void check(const relax::SearchOptions& options) {
-    const bool is_portfolio = options.algorithm == relax::SearchAlgorithm::Portfolio;
-    if (options.algorithm != relax::SearchAlgorithm::Greedy && !relax::is_admissible(options.heuristic)) {
+void check(const relax::HeuristicInfo& heuristic) {
+    if (!heuristic.is_admissible) {
         throw std::invalid_argument("the heuristic must be admissible");
     }
-    if (is_portfolio && options.members.empty()) {
-        throw std::invalid_argument("a portfolio must have members");
+}
+
+void check(const relax::FindPlansOptions& options) {
+    if (options.heuristics.empty()) {
+        throw std::invalid_argument("there must be a heuristic");
     }
-    for (const std::vector<relax::SearchOptions>& stages : options.members) {
-        if (!is_portfolio || stages.empty()) {
-            throw std::invalid_argument("a portfolio, and nothing else, has members, each of one stage at least");
+    for (const relax::HeuristicInfo* const heuristic : options.heuristics) {
+        check(*heuristic);
+    }
+}
+
+void check(const relax::GreedyOptions& /*options*/) {}
+
+void check(const relax::PlanBasedOptions& options) { check(*options.heuristic); }
+
+void check(const relax::PortfolioOptions& options) {
+    for (const std::vector<relax::StepwiseOptions>& stages : options.members) {
+        if (stages.empty()) {
+            throw std::invalid_argument("each member of a portfolio must have a stage");
         }
-        std::ranges::for_each(stages, check);
+        for (const relax::StepwiseOptions& stage : stages) {
+            std::visit([](const auto& asked) { check(asked); }, stage);
+        }
+    }
+    if (options.members.empty()) {
+        throw std::invalid_argument("a portfolio must have members");
     }
 }
 
 relax::SearchResult find_plans(const relax::PricedProblem& priced, const relax::SearchOptions& options,
                                std::optional<double> seconds, std::optional<std::size_t> memory_bytes,
                                const nb::object& progress) {
-    check(options);
+    std::visit([](const auto& asked) { check(asked); }, options);
     relax::SearchStatistics statistics;
     std::function<void()> watch;
     if (!progress.is_none()) {
@@ -125,21 +146,6 @@ std::vector<relax::ActionId> executed_actions(const relax::SearchResult& result)
 }  // namespace
 
 void bind_find_plans(nb::module_& module) {
-    nb::enum_<relax::HeuristicKind>(module, "HeuristicKind")
-        .value("Blind", relax::HeuristicKind::Blind)
-        .value("Tdg", relax::HeuristicKind::Tdg)
-        .value("HMax", relax::HeuristicKind::HMax)
-        .value("LmCut", relax::HeuristicKind::LmCut)
-        .value("Potential", relax::HeuristicKind::Potential)
-        .value("PotentialHMax", relax::HeuristicKind::PotentialHMax)
-        .value("Add", relax::HeuristicKind::Add)
-        .value("Ff", relax::HeuristicKind::Ff);
-    nb::enum_<relax::SearchAlgorithm>(module, "SearchAlgorithm")
-        .value("AStar", relax::SearchAlgorithm::AStar)
-        .value("Weighted", relax::SearchAlgorithm::Weighted)
-        .value("Greedy", relax::SearchAlgorithm::Greedy)
-        .value("PlanBased", relax::SearchAlgorithm::PlanBased)
-        .value("Portfolio", relax::SearchAlgorithm::Portfolio);
     nb::enum_<relax::SearchStatus>(module, "SearchStatus")
         .value("Optimal", relax::SearchStatus::Optimal)
         .value("Solved", relax::SearchStatus::Solved)
@@ -148,31 +154,6 @@ void bind_find_plans(nb::module_& module) {
         .value("TimeLimit", relax::SearchStatus::TimeLimit)
         .value("MemoryLimit", relax::SearchStatus::MemoryLimit)
         .value("Interrupted", relax::SearchStatus::Interrupted);
-
-    nb::class_<relax::SearchOptions>(module, "SearchOptions")
-        .def(nb::init<>())
-        .def_rw("heuristic", &relax::SearchOptions::heuristic)
-        .def_rw("more_heuristics", &relax::SearchOptions::more_heuristics)
-        .def_rw("members", &relax::SearchOptions::members)
-        .def_rw("in_sequence", &relax::SearchOptions::in_sequence)
-        .def_rw("when_due", &relax::SearchOptions::when_due)
-        .def_rw("algorithm", &relax::SearchOptions::algorithm)
-        .def_rw("weight", &relax::SearchOptions::weight)
-        .def_rw("tdg_bound", &relax::SearchOptions::tdg_bound)
-        .def_rw("inherit_h", &relax::SearchOptions::inherit_h)
-        .def_rw("selective", &relax::SearchOptions::selective)
-        .def_rw("skip_dead_methods", &relax::SearchOptions::skip_dead_methods)
-        .def_rw("stubborn_sets", &relax::SearchOptions::stubborn_sets)
-        .def_rw("forget_facts", &relax::SearchOptions::forget_facts)
-        .def_rw("endings", &relax::SearchOptions::endings)
-        .def_rw("merge_sequences", &relax::SearchOptions::merge_sequences)
-        .def_rw("learn_branching", &relax::SearchOptions::learn_branching)
-        .def_rw("follow_forced", &relax::SearchOptions::follow_forced)
-        .def_rw("upper_bound", &relax::SearchOptions::upper_bound)
-        .def_rw("branches_over_all", &relax::SearchOptions::branches_over_all)
-        .def_rw("checks_preconditions", &relax::SearchOptions::checks_preconditions)
-        .def_rw("explores", &relax::SearchOptions::explores)
-        .def_rw("most_evaluations", &relax::SearchOptions::most_evaluations);
 
     nb::class_<relax::SearchStatistics>(module, "SearchStatistics")
         .def_ro("expanded", &relax::SearchStatistics::expanded)
@@ -203,7 +184,7 @@ void bind_find_plans(nb::module_& module) {
         .def_prop_ro("actions", &executed_actions);
 
     nb::class_<Evaluator>(module, "Evaluator")
-        .def(nb::init<const relax::PricedProblem&, relax::HeuristicKind>(), "priced"_a, "kind"_a,
+        .def(nb::init<const relax::PricedProblem&, std::string_view>(), "priced"_a, "heuristic"_a,
              nb::keep_alive<1, 2>())
         .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a, "ordering"_a = nb::none())
         .def_prop_ro("model_bytes", &Evaluator::model_bytes);

@@ -25,7 +25,7 @@ relax::TopPlansResult top_plans(const relax::PricedProblem& priced, std::vector<
     if (names.size() != priced.problem.action_count()) {
         throw std::invalid_argument("there must be one name, or none, for each action");
     }
-    if (!relax::is_admissible(options.search.heuristic)) {
+    if (!options.heuristic->is_admissible) {
         throw std::invalid_argument("the heuristic must be admissible");
     }
     relax::TopPlansStatistics statistics;
@@ -41,17 +41,6 @@ relax::TopPlansResult top_plans(const relax::PricedProblem& priced, std::vector<
 }  // namespace
 
 void bind_top_plans(nb::module_& module) {
-    nb::enum_<relax::Distinct>(module, "Distinct")
-        .value("Sequence", relax::Distinct::Sequence)
-        .value("Multiset", relax::Distinct::Multiset);
-
-    nb::class_<relax::TopPlansOptions>(module, "TopPlansOptions")
-        .def(nb::init<>())
-        .def_rw("count", &relax::TopPlansOptions::count)
-        .def_rw("distinct", &relax::TopPlansOptions::distinct)
-        .def_rw("limits_labels", &relax::TopPlansOptions::limits_labels)
-        .def_rw("search", &relax::TopPlansOptions::search);
-
     nb::class_<relax::TopPlansStatistics, relax::SearchStatistics>(module, "TopPlansStatistics")
         .def_ro("found", &relax::TopPlansStatistics::found)
         .def_ro("proven", &relax::TopPlansStatistics::proven);

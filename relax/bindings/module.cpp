@@ -5,6 +5,7 @@ NB_MODULE(_relax, module) {
     bind_lifted_problem(module);
     bind_ground_problem(module);
     bind_priced_problem(module);
+    bind_search_options(module);
     bind_find_plans(module);
     bind_top_plans(module);
 }

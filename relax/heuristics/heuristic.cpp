@@ -1,5 +1,10 @@
 #include "relax/heuristics/heuristic.hpp"
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
 #include "relax/base/cost.hpp"
 #include "relax/heuristics/compute_rc_ad_heur.hpp"
 #include "relax/heuristics/hmax.hpp"
@@ -74,28 +79,73 @@ public:
     std::optional<Cost> run(const RelaxedTask& task) { return ff(task); }
 };
 
+template <typename Alone>
+std::unique_ptr<Heuristic> make_alone(const PricedProblem& /*priced*/, Limits& /*limits*/) {
+    return std::make_unique<Alone>();
+}
+
+template <typename ClassicalHeuristic>
+std::unique_ptr<Heuristic> make_on_composition(const PricedProblem& priced, Limits& limits) {
+    return std::make_unique<RcHeuristic<ClassicalHeuristic>>(priced.composition_model(limits), limits);
+}
+
+template <typename ClassicalHeuristic>
+std::unique_ptr<Heuristic> make_on_decomposition(const PricedProblem& priced, Limits& limits) {
+    return std::make_unique<Slack<ClassicalHeuristic>>(priced.decomposition_model(limits), limits);
+}
+
+// A new heuristic is a line here, and a pair of files that has it.
+constexpr std::array kHeuristics = {
+    HeuristicInfo{.name = "blind",
+                  .description = "always 0: uniform-cost search",
+                  .is_blind = true,
+                  .has_model = false,
+                  .make = make_alone<Blind>},
+    HeuristicInfo{.name = "tdg",
+                  .description = "least cost of any decomposition, states ignored (the paper's Algorithms 1 and 2)",
+                  .has_model = false,
+                  .make = make_alone<TdgBound>},
+    HeuristicInfo{.name = "hmax",
+                  .description = "max heuristic on the relaxed model (the paper's Algorithm 5; Bonet and Geffner 2001)",
+                  .make = make_on_composition<PricedHMax>},
+    HeuristicInfo{
+        .name = "lmcut",
+        .description = "landmark cuts on the relaxed model (the paper's Algorithm 5; Helmert and Domshlak 2009)",
+        .is_consistent = false,
+        .make = make_on_composition<LmCut>},
+    HeuristicInfo{.name = "potential",
+                  .description = "decomposition-graph bound, plus landmark cuts on what methods cost beyond it, in the "
+                                 "hierarchy's order",
+                  .is_consistent = false,
+                  .make = make_on_decomposition<LmCut>},
+    HeuristicInfo{.name = "potential-hmax",
+                  .description =
+                      "the same with the max heuristic instead of landmark cuts: a little less, in a fraction of the "
+                      "time",
+                  .is_consistent = false,
+                  .make = make_on_decomposition<PricedHMax>},
+    HeuristicInfo{.name = "add",
+                  .description = "additive heuristic on the relaxed model, for greedy search (Bonet and Geffner 2001)",
+                  .is_admissible = false,
+                  .is_consistent = false,
+                  .make = make_on_composition<Additive>},
+    HeuristicInfo{.name = "ff",
+                  .description = "relaxed plan on the relaxed model, for greedy search (Hoffmann and Nebel 2001)",
+                  .is_admissible = false,
+                  .is_consistent = false,
+                  .make = make_on_composition<Ff>},
+};
+
 }  // namespace
 
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const PricedProblem& priced, Limits& limits) {
-    switch (kind) {
-        case HeuristicKind::Blind:
-            return std::make_unique<Blind>();
-        case HeuristicKind::Tdg:
-            return std::make_unique<TdgBound>();
-        case HeuristicKind::HMax:
-            return std::make_unique<RcHeuristic<PricedHMax>>(priced.composition_model(limits), limits);
-        case HeuristicKind::LmCut:
-            return std::make_unique<RcHeuristic<LmCut>>(priced.composition_model(limits), limits);
-        case HeuristicKind::Potential:
-            return std::make_unique<Slack<LmCut>>(priced.decomposition_model(limits), limits);
-        case HeuristicKind::PotentialHMax:
-            return std::make_unique<Slack<PricedHMax>>(priced.decomposition_model(limits), limits);
-        case HeuristicKind::Add:
-            return std::make_unique<RcHeuristic<Additive>>(priced.composition_model(limits), limits);
-        case HeuristicKind::Ff:
-            return std::make_unique<RcHeuristic<Ff>>(priced.composition_model(limits), limits);
+std::span<const HeuristicInfo> heuristics() { return kHeuristics; }
+
+const HeuristicInfo& heuristic_named(std::string_view name) {
+    const auto* const found = std::ranges::find(kHeuristics, name, &HeuristicInfo::name);
+    if (found == kHeuristics.end()) {
+        throw std::invalid_argument("no such heuristic: " + std::string(name));
     }
-    return nullptr;
+    return *found;
 }
 
 }  // namespace relax

@@ -14,23 +14,17 @@ namespace {
 
 constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
 
-ProgressionOptions progression_options(const SearchOptions& options) {
-    ProgressionOptions result = options;
-    result.use_macros = options.merge_sequences;
-    return result;
-}
-
 }  // namespace
 
-FindPlans::FindPlans(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
+FindPlans::FindPlans(const PricedProblem& priced, const FindPlansOptions& options, Limits& limits,
                      SearchStatistics& statistics)
     : StepwiseSearch(priced, limits, statistics),
       options_(options),
-      progression_(priced.problem, priced.free_actions(), progression_options(options), limits),
+      progression_(priced.problem, priced.free_actions(), {options, options.merge_sequences}, limits),
       bounds_(progression_.networks(), priced.task_bounds(limits)),
       heuristics_(priced, options, progression_, bounds_, limits, statistics),
       nodes_(progression_.networks(), bounds_),
-      priority_(options.algorithm == SearchAlgorithm::Weighted ? options.weight : 1),
+      priority_(options.weight),
       forced_steps_(progression_, nodes_, priority_, limits, statistics) {
     incumbent_.cutoff = options.upper_bound.value_or(kInfinity);
 }
@@ -137,7 +131,7 @@ std::optional<NodeId> FindPlans::generate(NodeId parent, const Successor& succes
         }
         return std::nullopt;
     }
-    node.h = std::max(node.h, cheap_bound(options_, bound, nodes_[parent].h, cost));
+    node.h = std::max(node.h, cheap_bound(options_, *options_.heuristics.front(), bound, nodes_[parent].h, cost));
     return incumbent_.excludes(g, node.h) ? std::nullopt : id;
 }
 

@@ -19,13 +19,14 @@ constexpr std::uint64_t kWorkOfANode = 200;      // in operators that a heuristi
 
 }  // namespace
 
-GreedySearch::GreedySearch(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
+GreedySearch::GreedySearch(const PricedProblem& priced, const GreedyOptions& options, Limits& limits,
                            SearchStatistics& statistics)
     : StepwiseSearch(priced, limits, statistics),
       options_(options),
-      progression_(priced.problem, priced.free_actions(), options, limits),
+      progression_(priced.problem, priced.free_actions(), {options, false, options.when_due, options.in_sequence},
+                   limits),
       bounds_(progression_.networks(), priced.task_bounds(limits)),
-      heuristic_(make_heuristic(options.heuristic, priced, limits)),
+      heuristic_(options.heuristic->make(priced, limits)),
       nodes_(progression_.networks(), bounds_),
       most_evaluations_(options.most_evaluations.value_or(std::numeric_limits<std::uint64_t>::max())) {
     incumbent_.cutoff = options.upper_bound.value_or(kInfinity);

@@ -6,16 +6,15 @@
 
 namespace relax {
 
-HeuristicSequence::HeuristicSequence(const PricedProblem& priced, const SearchOptions& options,
+HeuristicSequence::HeuristicSequence(const PricedProblem& priced, const FindPlansOptions& options,
                                      Progression& progression, NetworkBounds& bounds, Limits& limits,
                                      SearchStatistics& statistics)
     : progression_(progression), bounds_(bounds), statistics_(statistics) {
     if (options.endings && !progression.networks().are_totally_ordered()) {
         ending_.emplace(priced.problem, limits);
     }
-    heuristics_.emplace_back(make_heuristic(options.heuristic, priced, limits), !options.selective);
-    for (const HeuristicKind kind : options.more_heuristics) {
-        heuristics_.emplace_back(make_heuristic(kind, priced, limits), !options.selective);
+    for (const HeuristicInfo* const heuristic : options.heuristics) {
+        heuristics_.emplace_back(heuristic->make(priced, limits), !options.selective);
     }
 }
 

@@ -22,11 +22,11 @@ std::vector<bool> find_choices(const GroundProblem& problem) {
 }
 
 // By TaskId: what a task adds to f; of a compound one nothing where the heuristic is blind.
-std::vector<Cost> make_bounds(const PricedProblem& priced, const std::vector<bool>& is_choice, HeuristicKind heuristic,
-                              Limits& limits) {
+std::vector<Cost> make_bounds(const PricedProblem& priced, const std::vector<bool>& is_choice,
+                              const HeuristicInfo& heuristic, Limits& limits) {
     std::vector<Cost> bounds = priced.task_bounds(limits);
     for (const TaskId task : priced.problem.compounds()) {
-        if (heuristic == HeuristicKind::Blind && !is_choice[task]) {
+        if (heuristic.is_blind && !is_choice[task]) {
             bounds[task] = 0;
         }
     }
@@ -35,7 +35,7 @@ std::vector<Cost> make_bounds(const PricedProblem& priced, const std::vector<boo
 
 }  // namespace
 
-PlanBased::PlanBased(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
+PlanBased::PlanBased(const PricedProblem& priced, const PlanBasedOptions& options, Limits& limits,
                      SearchStatistics& statistics)
     : priced_(priced),
       problem_(priced.problem),
@@ -43,8 +43,8 @@ PlanBased::PlanBased(const PricedProblem& priced, const SearchOptions& options, 
       limits_(limits),
       statistics_(statistics),
       is_choice_(find_choices(priced.problem)),
-      task_bounds_(make_bounds(priced, is_choice_, options.heuristic, limits)),
-      progression_(priced.problem, priced.free_actions(), options, limits),
+      task_bounds_(make_bounds(priced, is_choice_, *options.heuristic, limits)),
+      progression_(priced.problem, priced.free_actions(), ProgressionOptions{}, limits),
       bounds_(progression_.networks(), task_bounds_),
       linearisation_(priced, progression_, bounds_, limits),
       open_preconditions_(priced.problem, limits) {}

@@ -18,11 +18,28 @@ constexpr std::uint64_t kPreparation = 100;      // of a relaxed model, for each
 constexpr std::uint64_t kHeadStart = 8'000'000;  // of a greedy search
 constexpr std::uint64_t kNoEnd = std::numeric_limits<std::uint64_t>::max();
 
-bool has_model(HeuristicKind kind) { return kind != HeuristicKind::Blind && kind != HeuristicKind::Tdg; }
+// How many models it takes to begin with these options.
+std::uint64_t models_of(const StepwiseOptions& options) {
+    if (const auto* const greedy = std::get_if<GreedyOptions>(&options)) {
+        return greedy->heuristic->has_model ? 1 : 0;
+    }
+    const auto& heuristics = std::get<FindPlansOptions>(options).heuristics;
+    return static_cast<std::uint64_t>(std::ranges::count_if(heuristics, &HeuristicInfo::has_model));
+}
+
+std::unique_ptr<StepwiseSearch> make_search(const PricedProblem& priced, const FindPlansOptions& options,
+                                            Limits& limits, SearchStatistics& statistics) {
+    return std::make_unique<FindPlans>(priced, options, limits, statistics);
+}
+
+std::unique_ptr<StepwiseSearch> make_search(const PricedProblem& priced, const GreedyOptions& options, Limits& limits,
+                                            SearchStatistics& statistics) {
+    return std::make_unique<GreedySearch>(priced, options, limits, statistics);
+}
 
 }  // namespace
 
-Portfolio::Portfolio(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
+Portfolio::Portfolio(const PricedProblem& priced, const PortfolioOptions& options, Limits& limits,
                      SearchStatistics& statistics)
     : priced_(priced),
       limits_(limits),
@@ -30,10 +47,8 @@ Portfolio::Portfolio(const PricedProblem& priced, const SearchOptions& options, 
       poll_(std::move(limits.poll)),
       upper_bound_(options.upper_bound) {
     const std::uint64_t model = kPreparation * (priced.problem.action_count() + priced.problem.method_count());
-    for (const std::vector<SearchOptions>& stages : options.members) {
-        std::uint64_t models = has_model(stages.front().heuristic) ? 1 : 0;
-        models += static_cast<std::uint64_t>(std::ranges::count_if(stages.front().more_heuristics, has_model));
-        members_.push_back({stages, models * model, {}, nullptr});
+    for (const std::vector<StepwiseOptions>& stages : options.members) {
+        members_.push_back({stages, models_of(stages.front()) * model, {}, nullptr});
     }
     for (Member& member : members_) {
         greedy_ = member.is_greedy() ? &member : greedy_;
@@ -108,15 +123,15 @@ bool Portfolio::take_turn(Member& member, std::uint64_t work) {
 
 // Prepare the member's next stage. False: a limit was reached.
 bool Portfolio::begin_stage(Member& member) {
-    SearchOptions options = member.stages[member.statistics.size()];
-    options.upper_bound = upper_bound_;
+    StepwiseOptions stage = member.stages[member.statistics.size()];
     SearchStatistics& statistics = member.statistics.emplace_back();
     stop_ = run_within_limits([&]() -> std::optional<StopReason> {
-        if (member.is_greedy()) {
-            member.search = std::make_unique<GreedySearch>(priced_, options, limits_, statistics);
-        } else {
-            member.search = std::make_unique<FindPlans>(priced_, options, limits_, statistics);
-        }
+        member.search = std::visit(
+            [&](auto& options) {
+                options.upper_bound = upper_bound_;
+                return make_search(priced_, options, limits_, statistics);
+            },
+            stage);
         return std::nullopt;
     });
     share_bounds();

@@ -1,7 +1,7 @@
 #include "relax/search/search.hpp"
 
 #include <limits>
-#include <utility>
+#include <variant>
 
 #include "relax/search/find_plans.hpp"
 #include "relax/search/greedy_search.hpp"
@@ -17,18 +17,24 @@ SearchResult finish(StepwiseSearch&& search) {
     return search.result();
 }
 
-SearchResult search_or_throw(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
-                             SearchStatistics& statistics) {
-    if (options.algorithm == SearchAlgorithm::Greedy) {
-        return finish(GreedySearch(priced, options, limits, statistics));
-    }
-    if (options.algorithm == SearchAlgorithm::PlanBased) {
-        return PlanBased(priced, options, limits, statistics).run();
-    }
-    if (options.algorithm == SearchAlgorithm::Portfolio) {
-        return Portfolio(priced, options, limits, statistics).run();
-    }
+SearchResult run(const PricedProblem& priced, const FindPlansOptions& options, Limits& limits,
+                 SearchStatistics& statistics) {
     return finish(FindPlans(priced, options, limits, statistics));
+}
+
+SearchResult run(const PricedProblem& priced, const GreedyOptions& options, Limits& limits,
+                 SearchStatistics& statistics) {
+    return finish(GreedySearch(priced, options, limits, statistics));
+}
+
+SearchResult run(const PricedProblem& priced, const PlanBasedOptions& options, Limits& limits,
+                 SearchStatistics& statistics) {
+    return PlanBased(priced, options, limits, statistics).run();
+}
+
+SearchResult run(const PricedProblem& priced, const PortfolioOptions& options, Limits& limits,
+                 SearchStatistics& statistics) {
+    return Portfolio(priced, options, limits, statistics).run();
 }
 
 // The end of a search that a limit stopped while it was being prepared.
@@ -46,7 +52,7 @@ SearchResult search(const PricedProblem& priced, const SearchOptions& options, L
                     SearchStatistics& statistics) {
     SearchResult result;
     const auto stop = run_within_limits([&]() -> std::optional<StopReason> {
-        result = search_or_throw(priced, options, limits, statistics);
+        result = std::visit([&](const auto& asked) { return run(priced, asked, limits, statistics); }, options);
         return std::nullopt;
     });
     return stop ? stopped_early(*stop, statistics) : result;

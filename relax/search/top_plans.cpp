@@ -25,7 +25,7 @@ std::vector<bool> free_actions(const PricedProblem& priced, std::span<const std:
 
 // Stubborn sets leave out orders of the same actions.
 ProgressionOptions allowed(const TopPlansOptions& options) {
-    ProgressionOptions allowed = options.search;
+    ProgressionOptions allowed = {options};
     allowed.stubborn_sets = allowed.stubborn_sets && options.distinct == Distinct::Multiset;
     return allowed;
 }
@@ -42,7 +42,7 @@ TopPlans::TopPlans(const PricedProblem& priced, std::vector<std::optional<Action
       statistics_(statistics),
       progression_(priced.problem, free_actions(priced, names_, options.distinct), allowed(options), limits),
       bounds_(progression_.networks(), priced.task_bounds(limits)),
-      heuristic_(make_heuristic(options.search.heuristic, priced, limits)) {}
+      heuristic_(options.heuristic->make(priced, limits)) {}
 
 TopPlansResult top_plans(const PricedProblem& priced, std::vector<std::optional<ActionName>> names,
                          const TopPlansOptions& options, Limits& limits, TopPlansStatistics& statistics) {
@@ -142,8 +142,8 @@ void TopPlans::generate(LabelId parent, const Successor& successor) {
     const Cost cost = priced_.cost(successor.action, successor.due_parts);
     const Cost g = add_bounds(labels_[parent].g, cost);
     const NodeId node = find_node(successor.state, successor.network);
-    nodes_[node].h = std::max(
-        nodes_[node].h, cheap_bound(options_.search, bounds_[successor.network], nodes_[labels_[parent].node].h, cost));
+    nodes_[node].h = std::max(nodes_[node].h, cheap_bound(options_, *options_.heuristic, bounds_[successor.network],
+                                                          nodes_[labels_[parent].node].h, cost));
     if (const Cost f = add_bounds(g, nodes_[node].h); f >= cutoff()) {
         has_pruned_ = has_pruned_ || f < kInfinity;
         has_overflowed_ = has_overflowed_ || f == kMostCost;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <initializer_list>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -93,25 +94,40 @@ relax::GroundProblem make_problem(bool ordered) {
     return builder.problem;
 }
 
-bool solve(bool ordered, relax::HeuristicKind heuristic, relax::SearchAlgorithm algorithm) {
+// The cheapest plan costs 15. Only exact searches need find it.
+bool solve(bool ordered, std::string_view name, const relax::SearchOptions& options, bool is_exact) {
     const relax::AnalysedProblem problem(make_problem(ordered));
     const relax::PricedProblem priced(problem, {{3, 5, 4}, {}});
-    relax::SearchOptions options;
-    options.heuristic = heuristic;
-    options.algorithm = algorithm;
-    options.weight = 2.0;
     relax::Limits limits;
     relax::SearchStatistics statistics;
     const relax::SearchResult result = relax::search(priced, options, limits, statistics);
     const bool optimal = result.status == relax::SearchStatus::Optimal && result.cost == relax::Cost{15};
-    const bool is_exact = algorithm == relax::SearchAlgorithm::AStar || algorithm == relax::SearchAlgorithm::PlanBased;
     const bool solved = !is_exact && result.cost && *result.cost >= 15;
     const bool good = (optimal || solved) && !result.plan.empty() && statistics.lower_bound.value_or(99) <= 15;
     if (!good) {
-        std::printf("wrong: ordered %d, heuristic %d, algorithm %d\n", ordered, static_cast<int>(heuristic),
-                    static_cast<int>(algorithm));
+        std::printf("wrong: ordered %d, %.*s\n", ordered, static_cast<int>(name.size()), name.data());
     }
     return good;
+}
+
+relax::FindPlansOptions best_first(std::vector<const relax::HeuristicInfo*> heuristics, double weight = 1.0) {
+    relax::FindPlansOptions options;
+    options.heuristics = std::move(heuristics);
+    options.weight = weight;
+    return options;
+}
+
+// What the planner does where nothing else is asked for.
+relax::PortfolioOptions by_turns() {
+    std::vector<const relax::HeuristicInfo*> several;
+    for (const char* const name : {"potential-hmax", "potential", "lmcut"}) {
+        several.push_back(&relax::heuristic_named(name));
+    }
+    relax::PortfolioOptions options;
+    options.members = {{best_first({&relax::heuristic_named("tdg")})},
+                       {best_first({&relax::heuristic_named("lmcut")})},
+                       {best_first(several)}};
+    return options;
 }
 
 // The four best plans; every action is its own label.
@@ -154,19 +170,18 @@ int main() {
     int passed = 0;
     int failed = 0;
     for (const bool ordered : {true, false}) {
-        for (const auto heuristic :
-             {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg, relax::HeuristicKind::HMax,
-              relax::HeuristicKind::LmCut, relax::HeuristicKind::Add, relax::HeuristicKind::Ff}) {
-            for (const auto algorithm :
-                 {relax::SearchAlgorithm::AStar, relax::SearchAlgorithm::Weighted, relax::SearchAlgorithm::Greedy}) {
-                if (relax::is_admissible(heuristic) || algorithm == relax::SearchAlgorithm::Greedy) {
-                    ++(solve(ordered, heuristic, algorithm) ? passed : failed);
-                }
+        for (const relax::HeuristicInfo& heuristic : relax::heuristics()) {
+            const std::string_view name = heuristic.name;
+            ++(solve(ordered, name, relax::GreedyOptions{.heuristic = &heuristic}, false) ? passed : failed);
+            if (heuristic.is_admissible) {
+                ++(solve(ordered, name, best_first({&heuristic}), true) ? passed : failed);
+                ++(solve(ordered, name, best_first({&heuristic}, 2.0), false) ? passed : failed);
+            }
+            if (!heuristic.has_model) {
+                ++(solve(ordered, name, relax::PlanBasedOptions{.heuristic = &heuristic}, true) ? passed : failed);
             }
         }
-        for (const auto heuristic : {relax::HeuristicKind::Blind, relax::HeuristicKind::Tdg}) {
-            ++(solve(ordered, heuristic, relax::SearchAlgorithm::PlanBased) ? passed : failed);
-        }
+        ++(solve(ordered, "by turns", by_turns(), true) ? passed : failed);
     }
     ++(solve_for_several(true, relax::Distinct::Sequence, {15, 18, 18, 21}) ? passed : failed);
     ++(solve_for_several(false, relax::Distinct::Sequence, {15, 15, 15, 18}) ? passed : failed);

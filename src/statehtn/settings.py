@@ -37,8 +37,8 @@ MOST_PLANS = 1_000_000_000
 # The same names for type checkers.
 SolverName = Literal["state", "plan"]
 SearchName = Literal["astar", "weighted", "greedy", "anytime"]
-HeuristicName = Literal["auto", "blind", "tdg", "hmax", "lmcut", "potential", "potential-hmax", "add", "ff"]
 TopHeuristicName = Literal["blind", "tdg", "hmax", "lmcut", "potential", "potential-hmax"]
+HeuristicName = Literal[TopHeuristicName, "auto", "add", "ff"]
 BranchName = Literal["fewest", "all"]
 DistinctName = Literal["sequence", "multiset"]
 

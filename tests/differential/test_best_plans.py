@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -10,7 +12,7 @@ import statehtn
 from statehtn import Status, TopPlans, validate
 from statehtn.core.grounding import GroundingSwitches, ground
 from statehtn.core.pricing import price
-from statehtn.core.switches import SearchSwitches
+from statehtn.core.switches import TopSwitches
 from statehtn.core.top_plans import find_top_plans
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
@@ -105,9 +107,7 @@ def test_all_plans(distinct: str, problem: Problem, utility: Utility) -> None:
     k=st.integers(1, 8),
     heuristic=st.sampled_from(ADMISSIBLE),
     grounding=grounding_switches(),
-    switch=st.sampled_from(
-        ("tdg_bound", "inherit_h", "skip_dead_methods", "stubborn_sets", "forget_facts", "limits_labels")
-    ),
+    switch=st.sampled_from([field.name for field in fields(TopSwitches)]),
 )
 def test_refinements_keep_the_best_plans(
     distinct: str,
@@ -124,8 +124,7 @@ def test_refinements_keep_the_best_plans(
         distinct=distinct,
         heuristic=heuristic,
         limits=Limits.starting_now(SECONDS),
-        switches=SearchSwitches() if switch == "limits_labels" else SearchSwitches(**{switch: False}),
-        limits_labels=switch != "limits_labels",
+        switches=TopSwitches(**{switch: False}),
     )
     assume(outcome.stopped is None)
     costs = [validate(problem, plan).risk_cost(utility) for plan in outcome.plans]

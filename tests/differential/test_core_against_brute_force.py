@@ -133,9 +133,8 @@ def test_greedy_search_finds_a_plan_where_there_is_one(problem: Problem, utility
 @given(problem=problems(orders=("none", "partial")), explores=st.booleans())
 def test_methods_that_wait_until_they_are_due_keep_a_plan(problem: Problem, explores: bool) -> None:
     handle = ground(problem).handle
-    options = _relax.SearchOptions()
-    options.algorithm = _relax.SearchAlgorithm.Greedy
-    options.heuristic = _relax.HeuristicKind.Ff
+    options = _relax.GreedyOptions()
+    options.heuristic = "ff"
     options.explores = explores
     options.when_due = True
     priced = _relax.PricedProblem(handle, [1] * len(handle.action_schema), [1] * handle.cost_part_count)

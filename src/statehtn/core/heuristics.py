@@ -18,14 +18,12 @@ class HeuristicInfo:
     """What is known of a heuristic.
 
     Args:
-        kind: its name in the core.
         admissible: it never estimates more than is still to pay.
         consistent: along a step it falls by at most the step's cost.
         safe: what it calls a dead end is one.
         description: what it does, and where it comes from.
     """
 
-    kind: _relax.HeuristicKind
     admissible: bool
     consistent: bool
     safe: bool
@@ -33,58 +31,7 @@ class HeuristicInfo:
 
 
 HEURISTICS: Mapping[str, HeuristicInfo] = MappingProxyType(
-    {
-        "blind": HeuristicInfo(_relax.HeuristicKind.Blind, True, True, True, "always 0: uniform-cost search"),
-        "tdg": HeuristicInfo(
-            _relax.HeuristicKind.Tdg,
-            True,
-            True,
-            True,
-            "least cost of any decomposition, states ignored (the paper's Algorithms 1 and 2)",
-        ),
-        "hmax": HeuristicInfo(
-            _relax.HeuristicKind.HMax,
-            True,
-            True,
-            True,
-            "max heuristic on the relaxed model (the paper's Algorithm 5; Bonet and Geffner 2001)",
-        ),
-        "lmcut": HeuristicInfo(
-            _relax.HeuristicKind.LmCut,
-            True,
-            False,
-            True,
-            "landmark cuts on the relaxed model (the paper's Algorithm 5; Helmert and Domshlak 2009)",
-        ),
-        "potential": HeuristicInfo(
-            _relax.HeuristicKind.Potential,
-            True,
-            False,
-            True,
-            "decomposition-graph bound, plus landmark cuts on what methods cost beyond it, in the hierarchy's order",
-        ),
-        "potential-hmax": HeuristicInfo(
-            _relax.HeuristicKind.PotentialHMax,
-            True,
-            False,
-            True,
-            "the same with the max heuristic instead of landmark cuts: a little less, in a fraction of the time",
-        ),
-        "add": HeuristicInfo(
-            _relax.HeuristicKind.Add,
-            False,
-            False,
-            True,
-            "additive heuristic on the relaxed model, for greedy search (Bonet and Geffner 2001)",
-        ),
-        "ff": HeuristicInfo(
-            _relax.HeuristicKind.Ff,
-            False,
-            False,
-            True,
-            "relaxed plan on the relaxed model, for greedy search (Hoffmann and Nebel 2001)",
-        ),
-    }
+    {one.name: HeuristicInfo(one.admissible, one.consistent, one.safe, one.description) for one in _relax.heuristics()}
 )
 """The heuristics by name: whether each is admissible, consistent and safe, and a line about it with its source."""
 
@@ -105,7 +52,7 @@ class HeuristicEvaluator:
     def __init__(self, grounding: Grounding, utility: Utility, heuristic: str) -> None:
         problem = price(grounding, utility)
         self._scale = Scale.first(problem.bounds())
-        self._evaluator = _relax.Evaluator(problem.on(self._scale).handle, HEURISTICS[heuristic].kind)
+        self._evaluator = _relax.Evaluator(problem.on(self._scale).handle, heuristic)
 
     @property
     def model_bytes(self) -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import statehtn._relax as _relax
-from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.pricing import PricedProblem
 from statehtn.core.progress import Progress
 from statehtn.core.search_run import SearchOutcome
@@ -40,9 +39,8 @@ def search_networks(
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
     """
-    options = _relax.SearchOptions()
-    options.algorithm = _relax.SearchAlgorithm.PlanBased
-    options.heuristic = HEURISTICS[heuristic].kind
+    options = _relax.PlanBasedOptions()
+    options.heuristic = heuristic
     options.branches_over_all = branch == "all"
     options.checks_preconditions = checks_preconditions
     return StagedRun(problem, limits, progress).outcomes([options])

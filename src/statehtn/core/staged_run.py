@@ -24,6 +24,7 @@ _STATUSES = {
     _relax.SearchStatus.MemoryLimit: Status.MEMORY_LIMIT,
     _relax.SearchStatus.Interrupted: Status.INTERRUPTED,
 }
+Options = _relax.FindPlansOptions | _relax.PlanBasedOptions | _relax.PortfolioOptions
 
 
 class StagedRun(SearchRun[Progress, _relax.SearchStatistics]):
@@ -37,7 +38,7 @@ class StagedRun(SearchRun[Progress, _relax.SearchStatistics]):
         self.ending = Status.UNSOLVABLE  # of the latest stage
 
     def outcomes(
-        self, stages: Sequence[_relax.SearchOptions], weight: float = 1.0, sharpens: bool = True
+        self, stages: Sequence[Options], weight: float = 1.0, sharpens: bool = True
     ) -> Iterator[SearchOutcome]:
         """Go through the stages, and yield an outcome after every stage that found a better plan, and at the end.
 
@@ -62,7 +63,7 @@ class StagedRun(SearchRun[Progress, _relax.SearchStatistics]):
                 yield replace(self.outcome(), status=Status.SOLVED)
         yield self.outcome()
 
-    def stage(self, options: _relax.SearchOptions) -> bool:
+    def stage(self, options: Options) -> bool:
         """Run one stage; returns whether it was the last one that can make a difference on this scale."""
         while True:
             options.upper_bound = self.wanted()

@@ -1,28 +1,49 @@
-"""Refinements of the search that can be left out."""
+"""Refinements of the searches that can be left out: they change the effort, never the optimum.
+
+The core's options have fields of the same names; what a search does not have is no field of its switches.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-import statehtn._relax as _relax
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProgressionSwitches:
+    """Refinements of every search over states and task networks."""
 
-@dataclass(frozen=True, slots=True)
-class SearchSwitches:
-    """Refinements of the search that change its effort but never its optimum."""
-
-    tdg_bound: bool = True
-    """Bound every node by the decomposition graph before the heuristic is asked (not with `blind`)."""
-    inherit_h: bool = True
-    """A node's h is at least its parent's less the cost of the step between them."""
-    selective: bool = True
-    """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
     skip_dead_methods: bool = True
     """Leave out methods whose first task would come next and cannot be executed."""
     stubborn_sets: bool = True
     """Leave out actions that can wait: their order with the others makes no difference."""
     forget_facts: bool = True
     """States keep only the facts that something still to be done may read."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundSwitches(ProgressionSwitches):
+    """Refinements of every search by f: what nodes are bounded by before the heuristic is asked."""
+
+    tdg_bound: bool = True
+    """Bound every node by the decomposition graph before the heuristic is asked (not with `blind`)."""
+    inherit_h: bool = True
+    """A node's h is at least its parent's less the cost of the step between them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TopSwitches(BoundSwitches):
+    """Refinements of the search for the best plans; stubborn sets are for plans that are multisets."""
+
+    limits_labels: bool = True
+    """Keep at most k labels at every node."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SearchSwitches(BoundSwitches):
+    """Refinements of the search for one plan; greedy search has those of every search alone."""
+
+    selective: bool = True
+    """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
     endings: bool = True
     """Leave out networks in partial order whose last actions cannot be executed in any order."""
     merge_sequences: bool = True
@@ -32,7 +53,8 @@ class SearchSwitches:
     follow_forced: bool = True
     """Pass through nodes that have but one way to go on, as long as f stays as it is."""
 
-    def apply(self, options: _relax.SearchOptions) -> None:
-        """Hand them over to the core."""
-        for switch in fields(self):
-            setattr(options, switch.name, getattr(self, switch.name))
+
+def set_switches(options: object, switches: ProgressionSwitches, kind: type[ProgressionSwitches] | None = None) -> None:
+    """Hand switches over to options of the core; of a kind of them only, if it is said."""
+    for switch in fields(kind or switches):
+        setattr(options, switch.name, getattr(switches, switch.name))

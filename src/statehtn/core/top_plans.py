@@ -6,11 +6,10 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 import statehtn._relax as _relax
-from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.pricing import PricedProblem
 from statehtn.core.progress import TopProgress
 from statehtn.core.search_run import SearchOutcome
-from statehtn.core.switches import SearchSwitches
+from statehtn.core.switches import TopSwitches, set_switches
 from statehtn.core.top_run import TopRun
 from statehtn.limits import Limits
 
@@ -28,8 +27,7 @@ def find_top_plans(
     heuristic: str = "lmcut",
     limits: Limits = Limits(),
     progress: Callable[[TopProgress], None] | None = None,
-    switches: SearchSwitches = SearchSwitches(),
-    limits_labels: bool = True,
+    switches: TopSwitches = TopSwitches(),
 ) -> SearchOutcome:
     """Search for the k plans of least risk cost that differ in their actions.
 
@@ -40,17 +38,13 @@ def find_top_plans(
         heuristic: the name of an admissible heuristic in `HEURISTICS`.
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
-        switches: refinements to leave out (some mean nothing here: see `relax::TopPlansOptions`).
-        limits_labels: keep at most k labels at every node, a state and a network.
+        switches: refinements to leave out.
     """
     options = _relax.TopPlansOptions()
     options.count = k
     options.distinct = DISTINCT[distinct]
-    options.limits_labels = limits_labels
-    search = _relax.SearchOptions()
-    search.heuristic = HEURISTICS[heuristic].kind
-    switches.apply(search)
-    options.search = search
+    options.heuristic = heuristic
+    set_switches(options, switches)
     run = TopRun(problem, options, limits, progress)
     run.search()
     while run.sharpen():

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
@@ -12,11 +14,6 @@
 #include "relax/networks/node_view.hpp"
 
 namespace relax {
-
-enum class HeuristicKind : std::uint8_t { Blind, Tdg, HMax, LmCut, Potential, PotentialHMax, Add, Ff };
-
-// An admissible heuristic never estimates more than is true.
-constexpr bool is_admissible(HeuristicKind kind) { return kind != HeuristicKind::Add && kind != HeuristicKind::Ff; }
 
 class Heuristic {
 public:
@@ -34,9 +31,24 @@ public:
     virtual bool is_preferred(MethodId /*method*/) const { return false; }
 };
 
-// All kinds say dead end only where it is true. When a limit is reached, an evaluation ends early
-// with a weaker estimate, or throws Stopped, as this function does.
-std::unique_ptr<Heuristic> make_heuristic(HeuristicKind kind, const PricedProblem& priced, Limits& limits);
+// What is known of a heuristic, and how it is made. When a limit is reached, an evaluation ends early with a weaker
+// estimate, or throws Stopped, as `make` does.
+struct HeuristicInfo {
+    std::string_view name;
+    std::string_view description;
+    bool is_admissible = true;  // it never estimates more than is true
+    bool is_consistent = true;  // along a step it falls by at most the step's cost
+    bool is_safe = true;        // what it calls a dead end is one
+    bool is_blind = false;      // it knows nothing, and no bound is to be taken in its place
+    bool has_model = true;      // making it takes long
+    std::unique_ptr<Heuristic> (*make)(const PricedProblem& priced, Limits& limits);
+};
+
+// All there are.
+std::span<const HeuristicInfo> heuristics();
+
+// Throws std::invalid_argument where there is none of this name.
+const HeuristicInfo& heuristic_named(std::string_view name);
 
 }  // namespace relax
 

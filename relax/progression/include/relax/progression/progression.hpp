@@ -34,13 +34,16 @@ struct Successor {
     std::vector<CostPartId> due_parts;  // of its cost
 };
 
-struct ProgressionOptions {
+struct ProgressionSwitches {
     bool skip_dead_methods = true;  // leave out methods whose first task cannot be executed where it would come next
     bool stubborn_sets = true;      // leave out actions that can wait until others have been executed
-    bool use_macros = false;        // actions in a row count as one (TaskNetworks::form)
     bool forget_facts = true;       // states keep only the facts that matter to what is left to do
-    bool when_due = false;          // methods that begin with an action are not chosen until it can be executed
-    bool in_sequence = false;       // tasks without an order come in that of the domain: some plans are left out
+};
+
+struct ProgressionOptions : ProgressionSwitches {
+    bool use_macros = false;   // actions in a row count as one (TaskNetworks::form)
+    bool when_due = false;     // methods that begin with an action are not chosen until it can be executed
+    bool in_sequence = false;  // tasks without an order come in that of the domain: some plans are left out
 };
 
 // Progression over states and task networks; knows nothing of search algorithms, nor of prices.

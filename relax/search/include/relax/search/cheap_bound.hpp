@@ -10,10 +10,11 @@ namespace relax {
 
 // A lower bound of the cost to come after a step, before any heuristic is asked: the decomposition graph's, and the
 // parent's less the cost of the step. (The parent's h is at most the cost of each plan that goes on with the step.)
-inline Cost cheap_bound(const SearchOptions& options, Cost network_bound, Cost parent_h, Cost step_cost) {
-    const bool asks_graph = options.tdg_bound && options.heuristic != HeuristicKind::Blind;
+inline Cost cheap_bound(const BoundSwitches& switches, const HeuristicInfo& heuristic, Cost network_bound,
+                        Cost parent_h, Cost step_cost) {
+    const bool asks_graph = switches.tdg_bound && !heuristic.is_blind;
     const Cost by_graph = asks_graph ? network_bound : 0;
-    return options.inherit_h ? std::max(by_graph, parent_h - step_cost) : by_graph;
+    return switches.inherit_h ? std::max(by_graph, parent_h - step_cost) : by_graph;
 }
 
 }  // namespace relax

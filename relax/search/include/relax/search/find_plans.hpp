@@ -34,11 +34,11 @@ namespace relax {
 // - There is a closed list: of all nodes with one state and networks of one form the best is known (SearchSpace). It is
 //   opened again when a cheaper path to it is found, since f may fall along a path.
 //
-// With `SearchAlgorithm::Weighted` the open list is ordered by g + weight h.
+// With a weight above 1 the open list is ordered by g + weight h.
 class FindPlans final : public StepwiseSearch {
 public:
     // The heuristics must be admissible. `statistics` is kept up to date for whoever watches from `limits.poll`.
-    FindPlans(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
+    FindPlans(const PricedProblem& priced, const FindPlansOptions& options, Limits& limits,
               SearchStatistics& statistics);  // throws Stopped
 
     std::uint64_t work() const override;
@@ -57,7 +57,7 @@ private:
     std::uint64_t work_without_heuristics() const;
     Cost proven() const;
 
-    SearchOptions options_;
+    FindPlansOptions options_;
     Progression progression_;
     NetworkBounds bounds_;
     HeuristicSequence heuristics_;

@@ -34,7 +34,7 @@ namespace relax {
 // has a plan, it goes on for as long as that took, for a cheaper one.
 class GreedySearch final : public StepwiseSearch {
 public:
-    GreedySearch(const PricedProblem& priced, const SearchOptions& options, Limits& limits,
+    GreedySearch(const PricedProblem& priced, const GreedyOptions& options, Limits& limits,
                  SearchStatistics& statistics);
 
     std::uint64_t work() const override;
@@ -51,7 +51,7 @@ private:
     std::optional<NodeId> generate(NodeId parent, const Successor& successor);
     void push_successors(NodeId parent, Cost h);
 
-    SearchOptions options_;
+    GreedyOptions options_;
     Progression progression_;
     NetworkBounds bounds_;
     std::unique_ptr<Heuristic> heuristic_;

@@ -19,7 +19,7 @@ namespace relax {
 // admissible, and the later ones need not be asked where an earlier one has put the node off.
 class HeuristicSequence {
 public:
-    HeuristicSequence(const PricedProblem& priced, const SearchOptions& options, Progression& progression,
+    HeuristicSequence(const PricedProblem& priced, const FindPlansOptions& options, Progression& progression,
                       NetworkBounds& bounds, Limits& limits, SearchStatistics& statistics);  // throws Stopped
 
     // Ask the next heuristic that is worth it about the node, and raise h. False: there is none left. `work_so_far`:

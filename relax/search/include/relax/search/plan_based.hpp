@@ -21,21 +21,22 @@ namespace relax {
 
 // The paper's Algorithm 3, the plan-based solver: A* over task networks, without a state. The numbers in plan_based.cpp
 // are the lines of its pseudo-code; src/statehtn/reference/plan_based.py has the same. A network's f is the sum of its
-// primitive tasks' costs (g) and of its compound tasks' decomposition-graph bounds (h). Where it differs from the paper,
-// and why:
+// primitive tasks' costs (g) and of its compound tasks' decomposition-graph bounds (h). Where it differs from the
+// paper, and why:
 //
 // - Lines 10 and 11: a primitive network is a solution if some order of it can be executed (Linearisation). Where costs
 //   depend on the state, f is a lower bound of what that costs. The best solution is kept, and returned when no open
 //   network has a lower f.
 // - Line 12: decomposing a task excludes no decomposition of another one, so that any plan's decompositions can be made
 //   in any order, and it is enough to branch over one compound task, the one with the fewest methods.
-//   `SearchOptions::branches_over_all` tries every task, as the paper writes it.
+//   `PlanBasedOptions::branches_over_all` tries every task, as the paper writes it.
 // - Line 20: networks with a precondition that nothing can make true any more are left out (OpenPreconditions); the
 //   paper finds out when all their tasks are primitive.
 class PlanBased {
 public:
     // Of the options, it reads the heuristic (Tdg or Blind), the upper bound and those that name PlanBased.
-    PlanBased(const PricedProblem& priced, const SearchOptions& options, Limits& limits, SearchStatistics& statistics);
+    PlanBased(const PricedProblem& priced, const PlanBasedOptions& options, Limits& limits,
+              SearchStatistics& statistics);
 
     SearchResult run();
 
@@ -61,7 +62,7 @@ private:
 
     const PricedProblem& priced_;
     const AnalysedProblem& problem_;
-    SearchOptions options_;
+    PlanBasedOptions options_;
     Limits& limits_;
     SearchStatistics& statistics_;
     std::vector<bool> is_choice_;    // by TaskId: the case of an action is chosen when it is executed

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "relax/analysis/priced_problem.hpp"
@@ -17,9 +18,9 @@
 
 namespace relax {
 
-// Searches that take turns and share what they have found and proven, `SearchOptions::members`. Which one is best cannot
-// be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in milliseconds
-// what landmark cuts do not in minutes; elsewhere it is the other way round. When one has ended, all have.
+// Searches that take turns and share what they have found and proven, `PortfolioOptions::members`. Which one is best
+// cannot be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in
+// milliseconds what landmark cuts do not in minutes; elsewhere it is the other way round. When one has ended, all have.
 //
 // Sound: each member's bound holds for every plan that costs less than its upper bound, which is the user's or the cost
 // of a plan that some member has found. So no plan is cheaper than the least of the best plan's cost and any member's
@@ -35,7 +36,8 @@ namespace relax {
 class Portfolio {
 public:
     // As for FindPlans.
-    Portfolio(const PricedProblem& priced, const SearchOptions& options, Limits& limits, SearchStatistics& statistics);
+    Portfolio(const PricedProblem& priced, const PortfolioOptions& options, Limits& limits,
+              SearchStatistics& statistics);
     ~Portfolio();
     Portfolio(const Portfolio&) = delete;
     Portfolio& operator=(const Portfolio&) = delete;
@@ -44,14 +46,14 @@ public:
 
 private:
     struct Member {
-        std::vector<SearchOptions> stages;
+        std::vector<StepwiseOptions> stages;
         std::uint64_t preparation;                // of its models, for one stage; in units of work
         std::deque<SearchStatistics> statistics;  // of each stage that has begun
         std::unique_ptr<StepwiseSearch> search;   // the latest of them
         std::uint64_t done = 0;                   // work of the earlier ones
         bool has_given_up = false;                // in its last stage
 
-        bool is_greedy() const { return stages.front().algorithm == SearchAlgorithm::Greedy; }
+        bool is_greedy() const { return std::holds_alternative<GreedyOptions>(stages.front()); }
         std::uint64_t work() const { return done + (search ? preparation + search->work() : 0); }
     };
 

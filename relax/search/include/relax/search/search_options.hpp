@@ -1,40 +1,75 @@
 #ifndef RELAX_SEARCH_SEARCH_OPTIONS_HPP
 #define RELAX_SEARCH_SEARCH_OPTIONS_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "relax/base/ids.hpp"
 #include "relax/heuristics/heuristic.hpp"
 #include "relax/progression/progression.hpp"
 
+// What each search is asked for. Switches have the names that they have in Python (core/switches.py); to leave a
+// refinement out changes the effort and never the optimum.
+
 namespace relax {
 
-// PlanBased searches task networks alone, the others states and task networks. Portfolio: several searches in turn.
-enum class SearchAlgorithm : std::uint8_t { AStar, Weighted, Greedy, PlanBased, Portfolio };
+// What nodes are bounded by before a heuristic is asked.
+struct BoundSwitches {
+    bool tdg_bound = true;  // the decomposition graph
+    bool inherit_h = true;  // a node's h is at least its parent's less the cost of the step
+};
 
-struct SearchOptions : ProgressionOptions {
-    HeuristicKind heuristic = HeuristicKind::LmCut;
-    // A* asks them, one by one, where those before leave f as it is; all are admissible.
-    std::vector<HeuristicKind> more_heuristics;
-    SearchAlgorithm algorithm = SearchAlgorithm::AStar;
-    double weight = 1.0;               // of h, for Weighted; at least 1
-    bool tdg_bound = true;             // bound nodes by the decomposition graph before the heuristic is asked
-    bool inherit_h = true;             // a node's h is at least its parent's less the cost of the step
-    bool selective = true;             // ask an admissible heuristic rarely while it tells no more than the cheap bound
-    bool endings = true;               // leave out networks in partial order whose last actions cannot be executed
-    bool merge_sequences = true;       // networks whose actions in a row need and change the same are the same
-    bool learn_branching = true;       // decompose the task that has left the fewest nodes to expand so far
-    bool follow_forced = true;         // pass through nodes with but one way to go on
+// A* by admissible heuristics, or weighted A*.
+struct FindPlansOptions : ProgressionSwitches, BoundSwitches {
+    // Asked one by one, where those before leave f as it is.
+    std::vector<const HeuristicInfo*> heuristics = {&heuristic_named("lmcut")};
+    double weight = 1.0;              // of h; at least 1, and 1 for A*
+    std::optional<Cost> upper_bound;  // only plans that cost less are wanted
+    bool selective = true;            // ask an admissible heuristic rarely while it tells no more than the cheap bound
+    bool endings = true;              // leave out networks in partial order whose last actions cannot be executed
+    bool merge_sequences = true;      // networks whose actions in a row need and change the same are the same
+    bool learn_branching = true;      // decompose the task that has left the fewest nodes to expand so far
+    bool follow_forced = true;        // pass through nodes with but one way to go on
+};
+
+struct GreedyOptions : ProgressionSwitches {
+    const HeuristicInfo* heuristic = &heuristic_named("lmcut");
+    std::optional<Cost> upper_bound;                // only plans that cost less are wanted
+    bool in_sequence = false;                       // tasks without an order come in that of the domain
+    bool when_due = false;                          // methods that begin with an action wait for it
+    bool explores = true;                           // take every other node from the type-based list
+    std::optional<std::uint64_t> most_evaluations;  // give up after so many without a plan
+};
+
+// Networks alone, without states: the heuristic has no model.
+struct PlanBasedOptions {
+    const HeuristicInfo* heuristic = &heuristic_named("tdg");
     std::optional<Cost> upper_bound;   // only plans that cost less are wanted
-    bool branches_over_all = false;    // PlanBased tries every compound task of a network, not one
-    bool checks_preconditions = true;  // PlanBased leaves out networks with a precondition that cannot be met
-    bool explores = true;              // Greedy takes every other node from the type-based list
-    std::optional<std::uint64_t> most_evaluations;  // Greedy gives up after so many without a plan
-    // Portfolio: the searches that take turns, each a sequence of stages, of which a later one begins when an earlier
-    // one has given up.
-    std::vector<std::vector<SearchOptions>> members;
+    bool branches_over_all = false;    // try every compound task of a network, not one
+    bool checks_preconditions = true;  // leave out networks with a precondition that cannot be met
+};
+
+using StepwiseOptions = std::variant<FindPlansOptions, GreedyOptions>;
+
+// Searches that take turns, each a sequence of stages, of which a later one begins when an earlier one has given up.
+struct PortfolioOptions {
+    std::vector<std::vector<StepwiseOptions>> members;
+    std::optional<Cost> upper_bound;  // only plans that cost less are wanted, whatever the members say
+};
+
+using SearchOptions = std::variant<FindPlansOptions, GreedyOptions, PlanBasedOptions, PortfolioOptions>;
+
+// When two plans are different: as sequences of actions, or by which actions they have and how many of each.
+enum class Distinct : std::uint8_t { Sequence, Multiset };
+
+struct TopPlansOptions : ProgressionSwitches, BoundSwitches {  // stubborn sets are for multisets
+    std::size_t count = 1;                                     // of plans that are wanted
+    Distinct distinct = Distinct::Sequence;
+    const HeuristicInfo* heuristic = &heuristic_named("lmcut");  // admissible
+    bool limits_labels = true;                                   // keep no more than `count` labels at a node
 };
 
 }  // namespace relax

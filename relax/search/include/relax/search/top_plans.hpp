@@ -24,18 +24,6 @@
 
 namespace relax {
 
-// When two plans are different: as sequences of actions, or by which actions they have and how many of each.
-enum class Distinct : std::uint8_t { Sequence, Multiset };
-
-struct TopPlansOptions {
-    std::size_t count = 1;  // of plans that are wanted
-    Distinct distinct = Distinct::Sequence;
-    bool limits_labels = true;  // keep no more than so many labels at a node
-    // Of these it reads the heuristic, which must be admissible, and those that FindPlans shares with other searches:
-    // tdg_bound, inherit_h, skip_dead_methods, forget_facts, and for multisets stubborn_sets.
-    SearchOptions search;
-};
-
 struct TopPlansStatistics : SearchStatistics {  // `lower_bound` is that of all plans that are not among those found
     std::size_t found = 0;
     std::size_t proven = 0;  // the first so many of them are the best there are
