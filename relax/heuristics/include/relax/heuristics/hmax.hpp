@@ -16,10 +16,10 @@ namespace relax {
 // The max heuristic (Bonet and Geffner 2001): the cost of a fact is that of its cheapest achiever, the cost of an
 // operator's preconditions is that of the most expensive one. Computed as a generalised Dijkstra search.
 //
-// Admissible, also where an action's operators share an owner, which pays for each on a path: by induction along a plan,
-// a fact that holds after some of its steps costs at most what these steps cost. The step that made it was executed in a
-// state whose facts cost no more than the steps before it, and it cost what its operator costs, with the cost parts
-// that were due there.
+// Admissible, also where an action's operators share an owner, which pays for each on a path: by induction along a
+// plan, a fact that holds after some of its steps costs at most what these steps cost. The step that made it was
+// executed in a state whose facts cost no more than the steps before it, and it cost what its operator costs, with the
+// cost parts that were due there.
 //
 // Keeps what LM-cut needs: each operator's supporter (the precondition of the highest cost), and an incremental update
 // for operators that become cheaper.

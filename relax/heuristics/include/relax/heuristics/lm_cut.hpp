@@ -22,10 +22,10 @@ namespace relax {
 //
 // A round looks at the graph with an edge for each operator from its supporter (the most expensive precondition) to
 // what it adds. The goal zone are the facts from which the most expensive goal is reached by operators without a cost.
-// The cut are the owners of the operators that lead into the zone from a fact that the state reaches outside it. It is a
-// landmark: follow a plan's operators backward from that goal, from each to its supporter. The path comes from a fact of
-// the state, which costs nothing and is outside the zone, and where it enters the zone for the first time, it does so
-// by an operator of the cut.
+// The cut are the owners of the operators that lead into the zone from a fact that the state reaches outside it. It is
+// a landmark: follow a plan's operators backward from that goal, from each to its supporter. The path comes from a fact
+// of the state, which costs nothing and is outside the zone, and where it enters the zone for the first time, it does
+// so by an operator of the cut.
 //
 // That the state reaches a fact outside the zone needs a search for few facts only. Facts of the zone cost at least as
 // much as the goal, since operators without a cost make nothing more expensive than their supporter. A cheaper fact has

@@ -16,8 +16,8 @@ namespace relax {
 // colour. The order refines the network's, since predecessors have fewer predecessors.
 //
 // Nothing but work depends on how canonical it is. Two networks are taken for the same only if, each in its order, they
-// are equal task by task and pair by pair, which is an isomorphism. Isomorphic ones that come in different orders (equal
-// colours that are no automorphism, or two colours with one hash) are two networks, and are searched twice.
+// are equal task by task and pair by pair, which is an isomorphism. Isomorphic ones that come in different orders
+// (equal colours that are no automorphism, or two colours with one hash) are two networks, and are searched twice.
 class CanonicalOrder {
 public:
     explicit CanonicalOrder(Limits& limits) : limits_(limits) {}

@@ -18,13 +18,16 @@ namespace relax {
 
 using MacroId = std::uint32_t;
 
-// Sequences of actions without conditional effects as one action each: the literals that it needs before, and those that
-// it has made true after. Sequences that need and make the same literals are the same macro-action, whatever they cost.
+// Sequences of actions without conditional effects as one action each: the literals that it needs before, and those
+// that it has made true after. Sequences that need and make the same literals are the same macro-action, whatever they
+// cost.
 //
-// (1) A sequence can be executed in a state that can be reached only if all that is needed holds there, and then it can:
+// (1) A sequence can be executed in a state that can be reached only if all that is needed holds there, and then it
+// can:
 //     an action that needs what an earlier one has made false, or literals needed together of which two never hold
 //     together (Mutexes), make the sequence impossible.
-// (2) In such a state, executing it makes true exactly `made`. Literals that hold before anyway are left out: those that
+// (2) In such a state, executing it makes true exactly `made`. Literals that hold before anyway are left out: those
+// that
 //     are needed, and those whose negation never holds together with one that is needed.
 //
 // By induction on the length of the sequence, where a literal that an action needs is needed of the sequence unless an

@@ -60,8 +60,8 @@ public:
                        FlatArray<Cost>& by_component) const = 0;
     virtual std::uint32_t size(NetworkId network) const = 0;
     // Networks of one form, each with a state that it can be reached with, have the same plans but for some actions
-    // between the same compound tasks, if the states agree as far as either network reads them. The cheapest plan of one
-    // costs `bound(one) - bound(other)` more than that of the other.
+    // between the same compound tasks, if the states agree as far as either network reads them. The cheapest plan of
+    // one costs `bound(one) - bound(other)` more than that of the other.
     virtual FormId form(NetworkId network) const { return network; }
     // Whether the network has no plan from any state that can be reached, since some actions of it exclude each other.
     virtual bool is_impossible(NetworkId /*network*/) const { return false; }

@@ -17,17 +17,18 @@ namespace relax {
 // Lists of tasks: a first task and the number of the rest. Equal lists have equal numbers.
 //
 // The form of a network is the network with every maximal run of consecutive actions replaced by its macro-action; runs
-// that need and make nothing vanish. (Actions with conditions on effects or costs stand for themselves.) Two networks of
-// one form have the same compound tasks in the same order and, between them, runs that need and make the same literals.
-// Hence from any state that can be reached the same continuations complete both: take a plan of one and replace its
-// runs by those of the other. By induction over the runs the states stay the same, which keeps every case and every
-// cost part of the other actions; so completing one costs `bound(one) - bound(other)` more than completing the other:
-// compound tasks and actions with cost parts contribute equally to `bound`, and of all other actions it is the cost.
+// that need and make nothing vanish. (Actions with conditions on effects or costs stand for themselves.) Two networks
+// of one form have the same compound tasks in the same order and, between them, runs that need and make the same
+// literals. Hence from any state that can be reached the same continuations complete both: take a plan of one and
+// replace its runs by those of the other. By induction over the runs the states stay the same, which keeps every case
+// and every cost part of the other actions; so completing one costs `bound(one) - bound(other)` more than completing
+// the other: compound tasks and actions with cost parts contribute equally to `bound`, and of all other actions it is
+// the cost.
 //
-// The same holds where states forget facts that a network does not read (RelevantFacts). Let two nodes have equal states
-// so reduced, and networks of one form. What a common task reads, and what a run needs, both networks read: of these
-// facts both nodes know the truth, and it is the same. Any other fact that a run reads it has made itself before, so
-// that its truth does not matter.
+// The same holds where states forget facts that a network does not read (RelevantFacts). Let two nodes have equal
+// states so reduced, and networks of one form. What a common task reads, and what a run needs, both networks read: of
+// these facts both nodes know the truth, and it is the same. Any other fact that a run reads it has made itself before,
+// so that its truth does not matter.
 class TotallyOrderedNetworks final : public TaskNetworks {
 public:
     // `use_macros`: whether forms are wanted. Methods that do not order their subtasks totally are taken as if they

@@ -13,10 +13,10 @@
 
 namespace relax {
 
-// A test on task networks, without a state, that proves that no decomposition of them can be executed: a precondition of
-// a primitive task t that nothing can make true in time. What could is the initial state, or a task that is not ordered
-// after t and may have the effect, itself or by its decompositions; unless an action that is ordered between it and t
-// makes the precondition false in every state. (Open preconditions, causal links and threats, as in partial-order
+// A test on task networks, without a state, that proves that no decomposition of them can be executed: a precondition
+// of a primitive task t that nothing can make true in time. What could is the initial state, or a task that is not
+// ordered after t and may have the effect, itself or by its decompositions; unless an action that is ordered between it
+// and t makes the precondition false in every state. (Open preconditions, causal links and threats, as in partial-order
 // causal-link planning.)
 class OpenPreconditions {
 public:

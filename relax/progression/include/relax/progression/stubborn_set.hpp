@@ -17,20 +17,20 @@
 
 namespace relax {
 
-// A stubborn set (Valmari 1989): unconstrained actions S of a network such that expanding only the applicable members of
-// S keeps a plan of every cost. Let R be the tasks outside S that are not ordered after a member of S; a compound task
-// stands for every action that it may lead to.
+// A stubborn set (Valmari 1989): unconstrained actions S of a network such that expanding only the applicable members
+// of S keeps a plan of every cost. Let R be the tasks outside S that are not ordered after a member of S; a compound
+// task stands for every action that it may lead to.
 //
 // (1) Where a in S is applicable: no action of R makes false what a reads, a makes false nothing that an action of R
 //     reads, and the two make no contradictory facts.
 // (2) Where a in S is not applicable: no action of R makes one particular false precondition of a true.
 //
-// Proof. Every plan executes all members of S, since no task of a network is optional. Take a plan and the member b of S
-// that comes first in it. What is executed before b comes from R: it is not of S, and it is not ordered after a member
-// of S, since none has been executed. By (2) b is applicable now. By (1) it commutes with everything before it; moving
-// it to the front changes no later state, no case of an action (conditions of effects and of costs count as read, with
-// their negations), and so no cost. Nor does it matter for decomposing, which does not depend on the state. If no member
-// of S is applicable, the same argument shows that there is no plan.
+// Proof. Every plan executes all members of S, since no task of a network is optional. Take a plan and the member b of
+// S that comes first in it. What is executed before b comes from R: it is not of S, and it is not ordered after a
+// member of S, since none has been executed. By (2) b is applicable now. By (1) it commutes with everything before it;
+// moving it to the front changes no later state, no case of an action (conditions of effects and of costs count as
+// read, with their negations), and so no cost. Nor does it matter for decomposing, which does not depend on the state.
+// If no member of S is applicable, the same argument shows that there is no plan.
 //
 // The set is closed by adding what violates (1) or (2): an action of R that is unconstrained itself, or else an
 // unconstrained action before it, which takes it out of R.
@@ -39,8 +39,8 @@ public:
     StubbornSet(const AnalysedProblem& problem, Limits& limits)
         : problem_(problem), limits_(limits), transition_(problem), compounds_(TaskProfile::empty(problem)) {}
 
-    // Find the applicable members of the smallest such set: where there are none, the node is a dead end. Nothing, where
-    // every set would have to contain a compound task. Valid until the next call. Throws Stopped.
+    // Find the applicable members of the smallest such set: where there are none, the node is a dead end. Nothing,
+    // where every set would have to contain a compound task. Valid until the next call. Throws Stopped.
     std::optional<std::span<const Occurrence>> find(const OrderedTasks& network, std::span<const std::uint64_t> state,
                                                     std::span<const Occurrence> unconstrained);
 
