@@ -207,7 +207,8 @@ def arguments() -> argparse.Namespace:
 def main() -> None:
     options = arguments()
     if options.child:
-        print(json.dumps(run_child(*options.child, options.time_limit, options.memory_limit)))
+        domain, problem = options.child
+        print(json.dumps(run_child(domain, problem, options.time_limit, options.memory_limit)))
         return
     names = {f"{one.domain} {one.problem}": one for one in find_instances(options.root)}
     allowed = options.time_limit, options.memory_limit

@@ -65,37 +65,30 @@ def summary(rows: list[Row], markdown: bool) -> Iterator[str]:
     bullet = "- " if markdown else ""
     yield f"{bullet}runs: {len(rows)}; with a plan or a proof: {sum(row.exit_code in (0, 10) for row in rows)}"
     kinds = (
-        ("longest stretch between two looks, s", MOST_SECONDS, lambda row: row.longest_stretch),
-        ("time after the limit, s", MOST_SECONDS, lambda row: None if row.signal else row.overrun),
-        ("time after a signal, s", MOST_SECONDS, lambda row: row.overrun if row.signal else None),
-        ("peak of memory, in parts of the limit", MOST_MEMORY, lambda row: row.memory_ratio),
+        ("longest stretch between two looks, s", MOST_SECONDS, [row.longest_stretch for row in rows]),
+        ("time after the limit, s", MOST_SECONDS, [None if row.signal else row.overrun for row in rows]),
+        ("time after a signal, s", MOST_SECONDS, [row.overrun if row.signal else None for row in rows]),
+        ("peak of memory, in parts of the limit", MOST_MEMORY, [row.memory_ratio for row in rows]),
     )
-    for title, mark, value in kinds:
-        known = sorted(((value(row), row) for row in rows if value(row) is not None), key=lambda pair: -pair[0])
-        if not known:
-            continue
-        over = sum(one > mark for one, _ in known)
-        yield f"{bullet}{title}: at most {known[0][0]:.3f}; over {mark:g}: {over} of {len(known)}"
-    for title, _, value in kinds:
-        known = sorted(((value(row), row) for row in rows if value(row) is not None), key=lambda pair: -pair[0])
+    worst: list[str] = []
+    for title, mark, values in kinds:
+        known = [(value, row) for value, row in zip(values, rows, strict=True) if value is not None]
+        known.sort(key=lambda pair: -pair[0])
         if known:
-            yield from ("", f"{'### ' if markdown else ''}Worst: {title}", "")
-            yield from table(
-                ("run", "figure", "exit", "CPU s", "MB", "between"),
-                [
-                    (
-                        row.name,
-                        f"{one:.3f}",
-                        figure(row.exit_code, "d"),
-                        figure(row.cpu_seconds, ".2f"),
-                        figure(row.peak_memory_mb, ".0f"),
-                        f"{row.after} .. {row.before}" if "stretch" in title else "",
-                    )
-                    for one, row in known[:WORST]
-                ],
-            )
+            over = sum(value > mark for value, _ in known)
+            yield f"{bullet}{title}: at most {known[0][0]:.3f}; over {mark:g}: {over} of {len(known)}"
+            lines = [_worst(value, row, has_places="stretch" in title) for value, row in known[:WORST]]
+            worst += ["", f"{'### ' if markdown else ''}Worst: {title}", ""]
+            worst += table(("run", "figure", "exit", "CPU s", "MB", "between"), lines)
+    yield from worst
     odd = (f"{row.name}: {row.exit_code} {row.message}" for row in rows if row.exit_code not in USUAL)
     yield from section("Ended otherwise", odd, markdown)
+
+
+def _worst(value: float, row: Row, has_places: bool) -> tuple[str, ...]:
+    """Return a line of the table of the worst."""
+    used = figure(row.exit_code, "d"), figure(row.cpu_seconds, ".2f"), figure(row.peak_memory_mb, ".0f")
+    return (row.name, f"{value:.3f}", *used, f"{row.after} .. {row.before}" if has_places else "")
 
 
 USUAL = (0, 10, 12, 20, 21, 30, 31, 130)
