@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -56,14 +57,14 @@ def walk(length: int) -> Plan:
 @pytest.mark.parametrize(
     ("ending", "stopped"),
     [
-        (LimitReached(Status.TIME_LIMIT), Status.TIME_LIMIT),
-        (LimitReached(Status.MEMORY_LIMIT), Status.MEMORY_LIMIT),
-        (MemoryError(), Status.MEMORY_LIMIT),
-        (KeyboardInterrupt(), Status.INTERRUPTED),
+        (lambda: LimitReached(Status.TIME_LIMIT), Status.TIME_LIMIT),
+        (lambda: LimitReached(Status.MEMORY_LIMIT), Status.MEMORY_LIMIT),
+        (MemoryError, Status.MEMORY_LIMIT),
+        (KeyboardInterrupt, Status.INTERRUPTED),
     ],
 )
 def test_a_plan_that_is_found_in_time_comes_out_unchecked(
-    ending: BaseException,
+    ending: Callable[[], BaseException],
     stopped: Status,
     files: tuple[str, str],
     monkeypatch: pytest.MonkeyPatch,
@@ -76,7 +77,7 @@ def test_a_plan_that_is_found_in_time_comes_out_unchecked(
     assert checked.statistics.validate_seconds is not None
 
     def end(*_: object) -> None:
-        raise ending
+        raise ending()
 
     monkeypatch.setattr(found_plan, "validate", end)
     result = plan(problem, attitude="averse", alpha=0.5)

@@ -15,10 +15,10 @@ from statehtn.core.trace import UNITS, TraceReader
 from statehtn.limits import LimitReached, Limits
 from statehtn.model.status import Status
 
-ENDINGS = [
-    (LimitReached(Status.TIME_LIMIT), Status.TIME_LIMIT),
-    (MemoryError(), Status.MEMORY_LIMIT),
-    (KeyboardInterrupt(), Status.INTERRUPTED),
+ENDINGS: list[tuple[Callable[[], BaseException], Status]] = [
+    (lambda: LimitReached(Status.TIME_LIMIT), Status.TIME_LIMIT),
+    (MemoryError, Status.MEMORY_LIMIT),
+    (KeyboardInterrupt, Status.INTERRUPTED),
 ]
 HEAD = "(define (domain d) (:requirements :hierarchy) (:predicates (never)) (:functions (total-cost))\n"
 WALK = (
@@ -90,7 +90,7 @@ def test_reading_a_plan_looks_at_the_limits_every_thousand_tasks(
 
 @pytest.mark.parametrize(("ending", "stopped"), ENDINGS)
 def test_a_plan_that_cannot_be_read_in_time_is_told_of(
-    ending: BaseException,
+    ending: Callable[[], BaseException],
     stopped: Status,
     read: Callable[[str], statehtn.Problem],
     tmp_path: Path,
@@ -100,7 +100,7 @@ def test_a_plan_that_cannot_be_read_in_time_is_told_of(
     problem = read(WALK)
 
     def end(*_: object) -> None:
-        raise ending
+        raise ending()
 
     monkeypatch.setattr(TraceReader, "read", end)
     result = statehtn.plan(problem)
@@ -142,12 +142,11 @@ def test_the_best_plan_that_was_read_stays(
     read: Callable[[str], statehtn.Problem], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     original = TraceReader.read
-    endings: Iterator[BaseException | None] = iter([None, LimitReached(Status.TIME_LIMIT)])
+    is_over: Iterator[bool] = iter([False, True])
 
     def once(*args: Any) -> Any:
-        ending = next(endings)
-        if ending is not None:
-            raise ending
+        if next(is_over):
+            raise LimitReached(Status.TIME_LIMIT)
         return original(*args)
 
     problem = read(WALK.replace("(increase (total-cost) 5)", "(increase (total-cost) 9)"))
