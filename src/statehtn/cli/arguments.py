@@ -8,6 +8,7 @@ from typing import Any
 
 from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
 from statehtn.cli.parser import Parser
+from statehtn.cli.shared_options import add_agent, add_inputs, add_limits, count
 from statehtn.cli.streams import emit
 from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
 from statehtn.core.plan_based import BRANCHES
@@ -15,7 +16,7 @@ from statehtn.core.searches import SEARCHES, TAKES
 from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
-from statehtn.risk import Attitude, Utility, utility_for
+from statehtn.risk import Attitude
 from statehtn.settings import DEFAULT_WEIGHT, HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES
 
 
@@ -76,8 +77,8 @@ def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    _add_inputs(parser)
-    _add_agent(parser)
+    add_inputs(parser)
+    add_agent(parser)
     search = parser.add_argument_group("the search")
     search.add_argument(
         "--solver",
@@ -110,7 +111,7 @@ def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
         metavar="NAME[+NAME]",
         help=f"leave out refinements, to see what they are worth; the optimum is the same: {', '.join(SWITCHES)}",
     )
-    _add_limits(search)
+    add_limits(search)
     output = parser.add_argument_group("output")
     output.add_argument("--output", metavar="FILE", help="write the plan with its decomposition (IPC 2020 format)")
     form = output.add_mutually_exclusive_group()
@@ -128,9 +129,9 @@ def _add_top(commands: argparse._SubParsersAction[Parser]) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument("k", type=_count, metavar="K", help="how many plans")
-    _add_inputs(parser)
-    _add_agent(parser)
+    parser.add_argument("k", type=count, metavar="K", help="how many plans")
+    add_inputs(parser)
+    add_agent(parser)
     search = parser.add_argument_group("the search")
     search.add_argument(
         "--distinct",
@@ -145,7 +146,7 @@ def _add_top(commands: argparse._SubParsersAction[Parser]) -> None:
         metavar=f"{{{','.join(ADMISSIBLE)}}}",  # why it takes no others, the search says itself
         help=f"default: {TAKES['state', 'top'][0]}",
     )
-    _add_limits(search)
+    add_limits(search)
     output = parser.add_argument_group("output")
     output.add_argument(
         "--output", metavar="DIR", help="write each plan with its decomposition (IPC 2020 format) into this folder"
@@ -153,28 +154,6 @@ def _add_top(commands: argparse._SubParsersAction[Parser]) -> None:
     form = output.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print the result as one JSON object")
     form.add_argument("--quiet", action="store_true", help="print the plans' actions only, one plan per line")
-
-
-def _add_limits(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
-    group.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
-
-
-def _add_agent(parser: argparse.ArgumentParser) -> None:
-    agent = parser.add_argument_group("the agent")
-    agent.add_argument(
-        "--attitude", choices=[str(attitude) for attitude in Attitude], default="neutral", help="default: neutral"
-    )
-    agent.add_argument("--alpha", type=float, metavar="A", help="how much such an agent cares, per unit of cost")
-
-
-def agent_of(options: argparse.Namespace) -> Utility:
-    """Return the agent that the options name.
-
-    Raises:
-        UsageError: there is none like that.
-    """
-    return utility_for(options.attitude, options.alpha)
 
 
 def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:
@@ -187,10 +166,9 @@ def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:
         "31 unsupported feature.",
         allow_abbrev=False,
     )
-    _add_inputs(parser)
+    add_inputs(parser)
     parser.add_argument("plan", metavar="PLAN", help="plan file; - for standard input")
-    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds, reading included")
-    parser.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    add_limits(parser)
     parser.add_argument("--json", action="store_true", help="print the verdict as one JSON object")
 
 
@@ -203,7 +181,7 @@ def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None
         epilog="Exit codes: as of 'statehtn plan', of the first agent that has no plan; 0 if all have one.",
         allow_abbrev=False,
     )
-    _add_inputs(parser)
+    add_inputs(parser)
     parser.add_argument(
         "--alpha",
         type=float,
@@ -214,8 +192,7 @@ def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None
     )
     parser.add_argument("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of the search in 'statehtn plan'")
     parser.add_argument("--search", choices=("astar", "anytime", "greedy"), default="astar", help="default: astar")
-    parser.add_argument("--time-limit", type=float, metavar="S", help="seconds for reading, and then for each agent")
-    parser.add_argument("--memory-limit", type=float, metavar="MB", help="of the whole process, in 10^6 bytes")
+    add_limits(parser, "seconds for reading, and then for each agent")
     parser.add_argument("--json", action="store_true", help="print the comparison as one JSON object")
 
 
@@ -243,7 +220,7 @@ def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:
     several("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of solver and search in 'statehtn plan'")
     several("--search", choices=list(SEARCHES), help="default: astar")
     several("--without", metavar="NAME[+NAME]", help=f"as of 'statehtn plan'; '{NOTHING}' is the complete search")
-    parser.add_argument("--repeat", type=_count, metavar="N", help="do everything so many times, one after the other")
+    parser.add_argument("--repeat", type=count, metavar="N", help="do everything so many times, one after the other")
     parser.add_argument(
         "--time-limit",
         type=float,
@@ -257,7 +234,7 @@ def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:
         help=f"of a run's process, in 10^6 bytes; default: {DEFAULTS.memory_limit:g}",
     )
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--jobs", type=_count, default=1, metavar="N", help="runs at the same time; default: 1")
+    where.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at the same time; default: 1")
     where.add_argument(
         "--dask",
         metavar="ADDRESS",
@@ -300,26 +277,12 @@ def _add_graph(commands: argparse._SubParsersAction[Parser]) -> None:
         epilog="Exit codes: 0 written, 2 usage, 30 input error, 31 unsupported feature, 74 cannot write.",
         allow_abbrev=False,
     )
-    _add_inputs(parser)
+    add_inputs(parser)
     parser.add_argument(
         "--kind", choices=("cv-tdg", "gcv-tdg", "relaxed-model"), default="gcv-tdg", help="default: gcv-tdg"
     )
-    _add_agent(parser)
+    add_agent(parser)
     parser.add_argument("--output", metavar="FILE", required=True, help="*.svg, *.dot, *.gv or *.graphml; - for stdout")
     parser.add_argument(
         "--format", choices=("svg", "dot", "graphml"), help="what to write; default: as the name of FILE ends"
     )
-
-
-def _count(text: str) -> int:
-    """Read a number of things, at least one."""
-    if text.isdecimal() and int(text) > 0:
-        return int(text)
-    raise argparse.ArgumentTypeError(f"expected a whole number of at least 1, found '{text}'")
-
-
-def _add_inputs(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("domain", metavar="DOMAIN", help="HDDL file of the domain")
-    parser.add_argument("problem", metavar="PROBLEM", help="HDDL file of the problem")
-    parser.add_argument("--costs", metavar="FILE", help="TOML or JSON file with other costs of actions (docs/costs.md)")
-    parser.add_argument("--strict", action="store_true", help="treat warnings about the input as errors")

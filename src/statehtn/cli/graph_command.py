@@ -8,9 +8,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import STDOUT, OutputFile, read_problem
+from statehtn.cli.shared_options import agent_of
 from statehtn.cli.streams import emit
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.counted import counted

@@ -7,10 +7,10 @@ import json
 import sys
 from functools import partial
 
-from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
+from statehtn.cli.shared_options import agent_of
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
 from statehtn.effort import Meter
 from statehtn.errors import UsageError

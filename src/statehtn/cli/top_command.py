@@ -8,10 +8,10 @@ import os
 from functools import partial
 from pathlib import Path
 
-from statehtn.cli.arguments import agent_of
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
+from statehtn.cli.shared_options import agent_of
 from statehtn.cli.streams import OutputError, emit, emit_lines
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
