@@ -30,12 +30,12 @@ struct ComposedNetwork {
     Ordering ordering;  // indices of subtasks; transitively closed, sorted
 };
 
-// Makes the networks of the ground problem from the living methods: void subtasks vanish, methods that equal another
+// Makes the networks of the ground problem from the living methods: trivial subtasks vanish, methods that equal another
 // one of the same task too, and a task with a single method gives way to the subtasks of that method.
 class Composition {
 public:
-    // `is_trivial`: by action node, whether it tests nothing and does nothing. `stands_for`: by action node, an equal
-    // one.
+    // `is_trivial`: by action node, whether it has no precondition and no effect. `stands_for`: by action node, an
+    // equal one.
     Composition(const LiftedProblem& lifted, TaskGraph& graph, const std::vector<bool>& is_trivial,
                 const std::vector<NodeId>& stands_for, const GroundingOptions& options, Limits& limits);
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "relax/analysis/mutexes.hpp"
+#include "relax/analysis/tdg_bound.hpp"
+#include "relax/base/cost.hpp"
 
 namespace relax::grounding {
 
@@ -17,8 +19,7 @@ class Living {
 public:
     Living(const GroundProblem& problem, const Mutexes& mutexes, Limits& limits)
         : problem_(problem), limits_(limits), is_task_alive_(problem.task_count(), false) {
-        find_decomposable(mutexes);
-        find_needed();
+        find_needed(mutexes);
     }
 
     bool is_alive(TaskId task) const { return is_task_alive_[task]; }
@@ -28,51 +29,15 @@ public:
     }
 
 private:
-    // Bottom-up, by counting the subtasks of each method that are not yet known to be possible.
-    void find_decomposable(const Mutexes& mutexes) {
-        std::vector<std::uint32_t> users(problem_.task_count(), 0);
-        for (const MethodId method : problem_.methods()) {
-            for (const TaskId subtask : problem_.method_subtasks[method]) {
-                ++users[subtask];
-            }
-        }
-        const auto methods_with = Rows<MethodId>::filled(users, [&](auto put) {
-            for (const MethodId method : problem_.methods()) {
-                for (const TaskId subtask : problem_.method_subtasks[method]) {
-                    put(subtask, method);
-                }
-            }
-        });
-        std::vector<std::size_t> missing;
-        for (const MethodId method : problem_.methods()) {
-            limits_.stop_if_reached();
-            missing.push_back(problem_.method_subtasks[method].size());
-            if (missing.back() == 0) {
-                wake(problem_.method_task[method]);
-            }
-        }
+    // From the initial task through methods of which all subtasks have a decomposition into possible actions.
+    void find_needed(const Mutexes& mutexes) {
+        std::vector<Cost> costs;  // infinite for what cannot be executed: so is then the bound of what needs it
         for (const ActionId action : problem_.actions()) {
-            if (mutexes.is_possible(action)) {
-                wake(action);
-            }
+            costs.push_back(mutexes.is_possible(action) ? 0 : kInfinity);
         }
-        while (!pending_.empty()) {
-            limits_.stop_if_reached();
-            const TaskId task = pending_.back();
-            pending_.pop_back();
-            for (const MethodId method : methods_with[task]) {
-                if (--missing[method] == 0) {
-                    wake(problem_.method_task[method]);
-                }
-            }
-        }
-    }
-
-    // Top-down, from the initial task through methods of which all subtasks are possible.
-    void find_needed() {
-        const std::vector<bool> is_possible = is_task_alive_;
-        is_task_alive_.assign(problem_.task_count(), false);
-        if (is_possible[problem_.initial_task]) {
+        const std::vector<Cost> bounds = tdg_bound(problem_, costs, limits_);
+        const auto has_decomposition = [&](TaskId task) { return bounds[task] < kInfinity; };
+        if (has_decomposition(problem_.initial_task)) {
             wake(problem_.initial_task);
         }
         while (!pending_.empty()) {
@@ -84,7 +49,7 @@ private:
             }
             for (const MethodId method : problem_.methods_of(task)) {
                 const auto subtasks = problem_.method_subtasks[method];
-                if (std::ranges::all_of(subtasks, [&](TaskId subtask) { return is_possible[subtask]; })) {
+                if (std::ranges::all_of(subtasks, has_decomposition)) {
                     std::ranges::for_each(subtasks, [this](TaskId subtask) { wake(subtask); });
                 }
             }

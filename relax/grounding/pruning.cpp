@@ -114,7 +114,7 @@ private:
 };
 
 // An action lives while one of its cases does.
-void bury_actions(TaskGraph& graph, const Cases& cases) {
+void drop_actions(TaskGraph& graph, const Cases& cases) {
     for (NodeId node = 0; node < graph.action_node_count; ++node) {
         bool is_alive = false;
         for (const CaseId number : cases.cases[node]) {
@@ -124,20 +124,20 @@ void bury_actions(TaskGraph& graph, const Cases& cases) {
     }
 }
 
-// Returns whether anything died.
-bool bury_cases(const TaskGraph& graph, Cases& cases) {
-    bool died = false;
+// Returns whether any case was dropped.
+bool drop_cases(const TaskGraph& graph, Cases& cases) {
+    bool has_dropped = false;
     for (CaseId number = 0; number < cases.owner.size(); ++number) {
         if (cases.is_alive[number] && !graph.is_node_alive[cases.owner[number]]) {
             cases.is_alive[number] = false;
-            died = true;
+            has_dropped = true;
         }
     }
     for (std::size_t effect = 0; effect < cases.effect_owner.size(); ++effect) {
         cases.is_effect_alive[effect] =
             cases.is_effect_alive[effect] && graph.is_node_alive[cases.effect_owner[effect]];
     }
-    return died;
+    return has_dropped;
 }
 
 }  // namespace
@@ -152,10 +152,10 @@ std::vector<bool> prune(TaskGraph& graph, Cases& cases, const std::vector<bool>&
         for (std::uint32_t effect = 0; effect < cases.effect_owner.size(); ++effect) {
             cases.is_effect_alive[effect] = cases.is_effect_alive[effect] && reachability.is_effect_met(effect);
         }
-        bury_actions(graph, cases);
+        drop_actions(graph, cases);
         prune_bottom_up(graph, limits);
         prune_top_down(graph, limits);
-        if (!bury_cases(graph, cases)) {
+        if (!drop_cases(graph, cases)) {
             return is_reached;
         }
     }

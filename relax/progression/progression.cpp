@@ -79,9 +79,8 @@ void Progression::expand(StateId state, NetworkId network, std::vector<Successor
     }
 }
 
-// The successors where methods wait until they are due. Nothing is lost: a method whose first action comes before all
-// its other subtasks can be applied just before that is executed, when the action is applicable and the task
-// unconstrained.
+// The successors where a method with a first action is not applied before that can be executed. No plan is lost: its
+// decompositions can be made as late as that, when the action is applicable and the task unconstrained.
 void Progression::expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors) {
     if (execute_at_once(state, network, successors) || decompose_at_once(state, network, successors)) {
         return;
@@ -101,7 +100,8 @@ void Progression::expand_when_due(StateId state, NetworkId network, std::vector<
     }
 }
 
-// Decompose a task of whose methods none begins with an action, if one is unconstrained: when does not matter.
+// Decompose an unconstrained task of whose methods none has a first action, if there is one: it may come first in any
+// plan.
 bool Progression::decompose_at_once(StateId state, NetworkId network, std::vector<Successor>& successors) {
     const auto found = std::ranges::find_if(unconstrained_, [this](const Occurrence& occurrence) {
         return !problem_.is_primitive(occurrence.task) &&
@@ -117,7 +117,8 @@ bool Progression::decompose_at_once(StateId state, NetworkId network, std::vecto
     return true;
 }
 
-// Look at the node, and execute an applicable action that can only be in the way, if there is one.
+// List the node's unconstrained tasks. If one is an applicable action that costs and changes nothing, make its
+// execution the only successor.
 bool Progression::execute_at_once(StateId state, NetworkId network, std::vector<Successor>& successors) {
     successors.clear();
     unconstrained_.clear();

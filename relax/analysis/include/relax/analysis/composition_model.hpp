@@ -12,6 +12,11 @@ namespace relax {
 // for facts that something reads negatively, their complements; and for every task the fact that it has been reached.
 // An action makes its effects true and its task reached; it needs its preconditions. A method needs its distinct
 // subtasks reached, makes its task reached, and is free. Only what is reachable from a node's network takes part.
+//
+// Admissible: follow a plan. Whatever holds before one of its actions is reached by the operators of earlier ones, so
+// that the action's operators can be applied; after the last one, its tasks are reached bottom-up by its methods. This
+// pays the owners that the plan pays, each no more often.
+//
 // Throws Stopped.
 RelaxedModel composition_model(const GroundProblem& problem, const Prices& prices, Limits& limits);
 

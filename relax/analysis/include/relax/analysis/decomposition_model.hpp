@@ -18,8 +18,18 @@ namespace relax {
 // reached when it has been entered and all subtasks have been reached.
 //
 // Every method costs its slack, the sum of its subtasks' bounds less its task's, and of an action only the cost parts
-// cost something: a plan costs the sum of the network's bounds, of the slacks of the methods it uses and of the cost
-// parts that are due. `task_bounds`: by TaskId, see `tdg_bound`. Throws Stopped.
+// cost something. Replacing a task by the subtasks of a method raises the sum of the bounds by the slack, until only
+// actions are left; so a plan costs the sum of its network's bounds, the slacks of the methods that it uses and the
+// cost parts that are due.
+//
+// Admissible, with a fact per task, under order. Follow a plan and its decomposition, each method entered just before
+// what is below it begins. By induction, whenever a task's turn has come in the plan, the fact that it may start has
+// been reached, since all tasks ordered before it have ended; and when it has ended, the fact that it has been reached.
+// Where a task occurs twice, these facts hold for the later occurrence as soon as they do for the earlier one: the
+// model may start and end it too early, which allows more than the plan does and excludes nothing. The owners that pay
+// for this are methods that were entered and parts that were due, each paid no more often than in the plan.
+//
+// `task_bounds`: by TaskId, see `tdg_bound`. Throws Stopped.
 RelaxedModel decomposition_model(const GroundProblem& problem, std::span<const Cost> task_bounds,
                                  std::span<const Cost> part_prices, Limits& limits);
 

@@ -18,10 +18,11 @@ namespace relax {
 // order: those that h^2 (Haslum and Geffner 2000) cannot reach. Of negated facts only those are known that some action
 // or effect reads.
 //
-// A pair is reachable if it holds initially, or if an action may be executed (each two of its preconditions are
-// reachable together) that makes both, or makes one and leaves the other, which is reachable with each of the
+// A pair is reachable if it holds initially, or if an action may be executed (each two of its preconditions are a
+// reachable pair) that makes both, or makes one and leaves the other, which is reachable with each of the
 // preconditions. By induction on the length of sequences of actions, each two literals that hold in a state that can be
-// reached are a reachable pair, so that what is not reachable never is, in more constrained orders all the less.
+// reached are a reachable pair. So literals of any other pair never hold together, after whatever sequence of actions;
+// the sequences that a network allows are some of these.
 class Mutexes {
 public:
     // On large problems nothing is found, since it would take too long. Throws Stopped.

@@ -1,19 +1,18 @@
 #ifndef RELAX_ANALYSIS_RELAXED_MODEL_HPP
 #define RELAX_ANALYSIS_RELAXED_MODEL_HPP
 
-// Relaxed classical models of an HTN problem: operators that make facts true and never false.
-// Two are made of a problem: see composition_model.hpp and decomposition_model.hpp.
+// Relaxed classical models of an HTN problem: operators that make facts true and never false. There are two: see
+// composition_model.hpp and decomposition_model.hpp, which say why they are admissible.
 //
-// Effects with conditions become operators of their own. They share their action's cost: the action is the *owner*.
+// Effects with conditions become operators of their own. They share their action's cost: the action is the *owner*,
+// whose cost a relaxed plan pays once.
 //
 // Parts of an action's cost that are due on a condition are settled one after the other, between the action's
 // preconditions and its effects: a part by an operator that needs the condition and costs its price, or by a free one
-// that needs the condition's negation. Each part is an owner. What the action does needs the last part settled.
-//
-// This keeps the models admissible. Take a plan, and of each action in it the first execution: what holds in the state
-// before has been reached by operators of earlier actions, so that all parts can be settled as they were in the plan,
-// whose cost they do not exceed; whatever later executions do, needs them settled no more than once. The max heuristic
-// pays for every execution on a way, in the state of which its parts are settled or due.
+// that needs the condition's negation. Each part is an owner. What the action does needs the last part settled. In the
+// first execution of an action in a plan, each part can be settled as it was in the plan, since the facts of the state
+// before are reached; later executions find it settled, and cost nothing more in the model. (The max heuristic, which
+// adds up along a path, pays once for each execution on it, and so does the plan.)
 
 #include <cstddef>
 #include <cstdint>

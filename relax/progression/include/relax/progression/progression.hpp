@@ -48,13 +48,17 @@ struct ProgressionOptions : ProgressionSwitches {
 
 // Progression over states and task networks; knows nothing of search algorithms, nor of prices.
 //
-// Branching (instead of over every unconstrained task, as Algorithm 4 of the paper does): decomposing does not depend
-// on the state, since method preconditions are actions, so that if a compound task is unconstrained, it is enough to
-// try the methods of one of them. An applicable action that costs and changes nothing (a method precondition) can only
-// be in the way: executing it at once is enough, whatever else is unconstrained. Otherwise the applicable unconstrained
-// actions are tried, of which a stubborn set is enough: beside compound tasks, too, where it is no larger than the set
-// of methods. Where nothing but one compound task is unconstrained, the first task of a method comes next: a method
-// whose first task is an action that is not applicable leads nowhere.
+// Algorithm 4 of the paper tries every unconstrained task (lines 9 and 10). Fewer successors keep a plan of every cost:
+//
+// - Decomposing does not depend on the state, since method preconditions are actions. So the decomposition of an
+//   unconstrained compound task can come first in any plan, and the methods of one such task are enough.
+// - An applicable unconstrained action that costs and changes nothing, as precondition actions do, can come first in
+// any
+//   plan. It is executed at once, whatever else is unconstrained.
+// - Of the other unconstrained actions a stubborn set is enough, beside compound tasks as well. It is tried instead of
+//   the methods where it has no more members than there are methods.
+// - Where a compound task is the only unconstrained task, the first task of its method comes next. A method whose first
+//   task is an action that is not applicable has no plan.
 class Progression {
 public:
     // All that makes states or networks may throw Stopped.

@@ -14,8 +14,14 @@
 
 namespace relax {
 
-// Which facts matter to what is left to do: those that the actions read to which the network's tasks can still lead.
-// (The goal is an action of the network.) States that agree on them are the same to a network.
+// Which facts matter to a network: those that the actions read to which its tasks can lead, as a precondition or as a
+// condition of an effect or of the cost. (The goal is an action of the network.) States forget the others, which then
+// count as false.
+//
+// No plan is lost, none is gained, and each keeps its cost: what a network's successors read, the network reads. So
+// along a plan the reduced state agrees with the full one on every fact that is still read; actions are applicable in
+// both or in neither, and have the same cases and cost parts. Nor does a heuristic rise by it: the operators that are
+// reachable from the network read no fact that is forgotten.
 class RelevantFacts {
 public:
     RelevantFacts(const AnalysedProblem& problem, Limits& limits);  // throws Stopped
