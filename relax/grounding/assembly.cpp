@@ -88,8 +88,8 @@ private:
             .relations[remains_.knowledge.task_relation(task)][node - remains_.graph.task_begin[task]];
     }
 
-    // Which actions are written, and which tests stand for others. What remains of an action is found again when it is
-    // written, since all of them together take several times the memory of what is written.
+    // Decide which actions are written, and which precondition actions stand for equal ones. What remains of an action
+    // is computed again when it is written, since all of it together takes several times the memory of what is written.
     void find_cases() {
         Tests tests;
         for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {

@@ -35,7 +35,7 @@ std::optional<Conjunction> condition_within(const Remains& remains, std::span<co
     return rest;
 }
 
-// Drop changes that change nothing.
+// Drop effects that the precondition or other effects make redundant.
 void tidy(Effects& effects, const Conjunction& precondition) {
     const auto always = effects.find({});
     const Conjunction unconditional = always == effects.end() ? Conjunction{} : always->second;
@@ -155,7 +155,7 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is
             }
         }
     }
-    // Effects on facts that nothing reads must not keep others alive.
+    // Facts that only effects on unread facts have in their conditions are not read, either.
     const auto matters = [&](Literal change) { return is_read[fact_of(change)]; };
     for (bool changed = true; changed;) {
         changed = false;

@@ -37,8 +37,8 @@ void add_change(Effects& effects, const Disjunction& condition, Literal change) 
     }
 }
 
-// Adding wins over deleting, and what happens anyway need not happen under a
-// condition, too.
+// Adding wins over deleting, and an effect without a condition makes the same
+// effect under a condition redundant.
 void tidy(Effects& effects) {
     const auto always = effects.find({});
     const Conjunction unconditional = always == effects.end() ? Conjunction{} : always->second;

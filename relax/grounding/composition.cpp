@@ -69,7 +69,7 @@ Composition::Composition(const LiftedProblem& lifted, TaskGraph& graph, const st
 }
 
 void Composition::drop_equal_methods(Limits& limits) {
-    // What counts of a method: its subtasks that do not vanish, and their order.
+    // By what two methods of a task are equal: their subtasks that do not vanish, and the order of these.
     struct Content {
         MethodInstanceId method;
         std::vector<NodeId> subtasks;

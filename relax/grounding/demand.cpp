@@ -27,8 +27,8 @@ ObjectSet column(const Knowledge& knowledge, RelationId id, std::size_t position
     return values;
 }
 
-// Narrow the sets of the parameters (slots 0, 1, ..) by a conjunct that speaks
-// of one variable at a time.
+// Narrow the sets of the parameters (slots 0, 1, ..) by a conjunct about one
+// variable.
 void narrow(const Knowledge& knowledge, const Formula& conjunct, std::vector<ObjectSet>& sets) {
     const auto is_parameter = [&](Term term) { return term >= 0 && static_cast<std::size_t>(term) < sets.size(); };
     if (conjunct.kind == FormulaKind::Atom && !knowledge.grows[conjunct.symbol]) {
@@ -211,8 +211,9 @@ private:
         return target.is_open || target.pairs.size() > before;
     }
 
-    // The pairs of objects that two variables of a method get from the task that it decomposes, and whether they stand
-    // there the other way round; none if they do not both come from there, or anything goes.
+    // The pairs of objects that two variables of a method get from the task that it decomposes, and whether they are
+    // its arguments in the opposite order; none if they are not both arguments of the task, or its pairs are not
+    // restricted.
     std::pair<const PairSet*, bool> given_pairs(std::uint32_t method, Term left, Term right) const {
         const LiftedMethod& lifted = knowledge_.problem.methods[method];
         if (!demand_.has_pairs(lifted.task)) {

@@ -31,8 +31,8 @@ struct PairRelation {
     std::uint32_t second;
 };
 
-// The objects that the initial task may hand down to each task, by position and by pairs of positions: where goals are
-// tasks, each object is asked for somewhere, but few together.
+// The objects that the initial task may pass on to each task, by position and by pairs of positions: where goals are
+// tasks, most objects are asked for somewhere, but few pairs of them.
 struct Demand {
     // Whether pairs are kept for the task at all.
     bool has_pairs(std::uint32_t task) const { return !pairs[task].empty(); }

@@ -115,7 +115,7 @@ private:
         plan_.steps.push_back(std::move(step));
     }
 
-    // Stop where the result is known already; the sooner, the better.
+    // Stop as early as possible where the result is already known.
     void check_result() {
         if (!is_result_checked_ && rule_.result &&
             std::ranges::all_of(rule_.result->terms, [&](Term term) { return is_bound(term); })) {

@@ -44,7 +44,7 @@ std::optional<Conjunction> normalized(Conjunction literals) {
 }
 
 Disjunction conjoin(std::vector<Disjunction> parts) {
-    // What is certain first, all at once; then the rest, smallest first.
+    // First the operands with a single case, all at once; then the others, those with few cases first.
     Conjunction certain;
     std::vector<Disjunction> open;
     for (Disjunction& part : parts) {

@@ -101,9 +101,9 @@ private:
         add_condition(std::move(rule), condition, Head(number, dependent));
     }
 
-    // Atoms with variables become patterns, what is decided for good tests,
-    // everything else waits. (A goal may have hundreds of atoms without
-    // variables: each would trigger the joins of all others.)
+    // Atoms with variables become patterns, what cannot change becomes a test,
+    // and everything else waits. (A goal may have hundreds of atoms without
+    // variables, each of which would trigger the joins of all others.)
     void add_condition(Rule rule, const Formula& condition, Head head) {
         std::vector<Formula> conjuncts;
         split_conjunction(normal_form(knowledge_, condition), conjuncts);
@@ -176,7 +176,7 @@ private:
         }
     }
 
-    // Returns whether something came of it.
+    // Returns whether it has derived something new.
     bool wake_waiting() {
         bool woken = false;
         for (Head& head : heads_) {

@@ -17,7 +17,7 @@ Rule method_rule(const Knowledge& knowledge, const Demand& demand, std::uint32_t
     for (std::uint32_t slot = 0; slot < method.parameters.size(); ++slot) {
         rule.domains[slot] = &demand.method_slots[number][slot];
     }
-    // A task that is there several times with the same arguments needs to be reached but once.
+    // A subtask that occurs several times with the same arguments needs to be reached once only.
     std::set<std::pair<std::uint32_t, std::vector<Term>>> seen;
     for (const LiftedSubtask& subtask : method.subtasks) {
         if (seen.emplace(subtask.task, subtask.arguments).second) {
@@ -91,7 +91,7 @@ void reach_tasks(Knowledge& knowledge, const Demand& demand, Limits& limits) {
         }
     }
     engine.run();
-    // No method contains the initial task, and its network may be long: one look in the end is enough.
+    // No method contains the initial task, and its network may be long: it is enough to evaluate it once, at the end.
     const std::vector<bool> nothing_grows(knowledge.relations.size(), false);
     Joiner joiner(knowledge, limits, emit);
     for (const std::uint32_t method : initial_methods) {

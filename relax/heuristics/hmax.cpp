@@ -52,7 +52,7 @@ std::optional<Cost> HMax::run(const RelaxedTask& task, std::span<const Cost> cos
             }
             if (state.epoch != epoch_) {
                 if (state.count == 0) {
-                    return;  // asleep
+                    return;  // it wakes up later, or never
                 }
                 state.epoch = epoch_;
                 state.missing = state.count;

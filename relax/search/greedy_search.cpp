@@ -12,7 +12,7 @@ namespace relax {
 namespace {
 
 constexpr std::int64_t kTurnsEarned = 1000;      // by preferred successors, whenever h falls below all before
-constexpr std::uint32_t kLongestWalk = 1000;     // through nodes with a single successor: networks may grow for ever
+constexpr std::uint32_t kLongestWalk = 1000;     // through nodes with a single successor: networks may grow without end
 constexpr std::uint64_t kMoreEvaluations = 200;  // after the first plan, besides as many as it took
 constexpr std::uint64_t kMoreWork = 30'000'000;  // likewise, at most
 constexpr std::uint64_t kWorkOfANode = 200;      // in operators that a heuristic looks at; by time, roughly
@@ -120,7 +120,7 @@ NodeId GreedySearch::pop() {
 }
 
 // Expand the node and go on as long as there is a single successor. Returns the node where there are several, which
-// are then in `successors_`; nothing where the walk ends at a dead end, in a circle, at a node that is known, or at a
+// are then in `successors_`; nothing where the walk ends at a dead end, in a cycle, at a node that is known, or at a
 // goal.
 std::optional<NodeId> GreedySearch::follow(NodeId node) {
     for (std::uint32_t steps = 0;; ++steps) {

@@ -221,7 +221,7 @@ void TopPlans::note_proven(Cost bound) {
     }
 }
 
-// The priority from which nothing that is open is worth a look.
+// Open labels with this priority or a higher one lead to no plan that is wanted.
 Cost TopPlans::cutoff() const { return plans_.size() < options_.count ? kMostCost : labels_[plans_.back()].g; }
 
 // The list of the actions after a step, which executed one or none.

@@ -21,6 +21,6 @@ def own_descriptor(name: str | os.PathLike[str]) -> int | None:
             if str(folder) in ("/dev/fd", f"/proc/{os.getpid()}/fd") and path.name.isdecimal():
                 return int(path.name)
             path = folder / (folder / path.name).readlink()
-        except (OSError, RuntimeError, ValueError):  # no link, links in a circle, or a name that no file can have
+        except (OSError, RuntimeError, ValueError):  # no link, a cycle of links, or a name that no file can have
             return None
     return None

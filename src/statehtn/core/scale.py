@@ -34,7 +34,7 @@ from dataclasses import dataclass
 TOLERANCE = 2.0**-30
 """A plan is optimal if it costs more than is proven of every plan by no more than this part of its cost."""
 BITS = 50
-"""Of a cost in units that is to be told apart from others by far less than `TOLERANCE`."""
+"""Of the cost of the best plan in units: so many that rounding is far below `TOLERANCE`."""
 MOST_UNITS = 2**62 - 1
 """The largest sum in the core; it stands for every larger one, too."""
 MOST_BITS = 59

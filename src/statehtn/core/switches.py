@@ -43,15 +43,15 @@ class SearchSwitches(BoundSwitches):
     """Refinements of the search for one plan; greedy search has those of every search alone."""
 
     selective: bool = True
-    """Ask an admissible heuristic rarely while it tells no more than the cheap bounds."""
+    """Ask an admissible heuristic rarely while it rarely exceeds the cheap bounds."""
     endings: bool = True
     """Leave out networks in partial order whose last actions cannot be executed in any order."""
     merge_sequences: bool = True
-    """Networks in total order are the same if they differ in actions in a row that need and change the same."""
+    """Networks in total order count as one if they differ only in consecutive actions that need and change the same."""
     learn_branching: bool = True
-    """Decompose the compound task whose decompositions have survived least so far, not that with the fewest methods."""
+    """Decompose the compound task that has led to the fewest expansions so far, not that with the fewest methods."""
     follow_forced: bool = True
-    """Pass through nodes that have but one way to go on, as long as f stays as it is."""
+    """Pass through nodes with a single successor, as long as f does not rise."""
 
 
 def set_switches(options: object, switches: ProgressionSwitches, kind: type[ProgressionSwitches] | None = None) -> None:

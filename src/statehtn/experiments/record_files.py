@@ -31,7 +31,7 @@ class RecordFiles:
     """The two files, open for more records; a run is done when its row is in the CSV file.
 
     The JSON is written before the row, and each is written at once: if the process is killed in between, the run is
-    done again, and its last JSON counts. A torn line at the end of a file is dropped when it is opened.
+    done again, and its last JSON counts. An incomplete line at the end of a file is dropped when it is opened.
 
     Args:
         name: the CSV file; that of JSON Lines has `.jsonl` for its suffix.
@@ -49,8 +49,8 @@ class RecordFiles:
         self._json = _LineFile(self.json_name, JSON_START)
         self._rows = self._read_rows()
         self._limits = self._read_limits()
-        self._csv.drop_torn_line()
-        self._json.drop_torn_line()
+        self._csv.drop_incomplete_line()
+        self._json.drop_incomplete_line()
         if not self._csv.lines:
             self._csv.append(csv_line(COLUMNS))
 
@@ -159,7 +159,7 @@ class _LineFile:
         self._whole = content.rfind(b"\n") + 1
         self.lines = content[: self._whole].decode(errors="surrogateescape").split("\n")[:-1]
 
-    def drop_torn_line(self) -> None:
+    def drop_incomplete_line(self) -> None:
         """Cut off a last line that has no end."""
         self._file.truncate(self._whole)
 

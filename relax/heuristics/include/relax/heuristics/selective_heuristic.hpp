@@ -9,8 +9,10 @@
 
 namespace relax {
 
-// A heuristic, and whether it is worth asking. Its answers are judged by the window: while too few of them tell more
-// than was known, more and more nodes go unasked before the next window.
+// A heuristic, and whether asking it pays. Its answers are judged by windows of some nodes each: as long as the work
+// that they save (by raising h) is less than the work that they take, more and more nodes pass without being asked
+// about before the next window. Whatever it decides, bounds stay bounds: a node without an answer keeps its cheaper
+// ones.
 class SelectiveHeuristic {
 public:
     // `asks_always`: whether to ask for every node all the same.

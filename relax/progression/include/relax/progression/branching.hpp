@@ -9,9 +9,10 @@
 
 namespace relax {
 
-// Which compound task to decompose first: the one that leaves fewest nodes to be expanded. Learned from the nodes so
-// far, as mixed-integer programming learns on which variable to branch (pseudo-costs: Benichou et al. 1971); at first
-// it is the task with the fewest methods.
+// Which of several unconstrained compound tasks to decompose first: the one whose methods lead to the fewest nodes that
+// have to be expanded, by statistics of the search so far, as mixed-integer programming learns on which variable to
+// branch (pseudo-costs: Benichou et al. 1971). At first it is the task with the fewest methods. Any choice keeps all
+// plans.
 class Branching {
 public:
     explicit Branching(const GroundProblem& problem) : problem_(problem), records_(problem.task_count(), {0, 0}) {}

@@ -12,7 +12,7 @@
 namespace relax {
 
 // The open list, of nodes or labels: a heap by priority (f, say). Ties: low h first; then, so that recursion without a
-// cost does not go on for ever, small networks, by powers of two of their sizes; then the newest. An entry is not
+// cost does not go on without end, small networks, by powers of two of their sizes; then the newest. An entry is not
 // removed when its node improves: whoever pops one compares it with the node.
 template <typename Id>
 class OpenList {

@@ -19,7 +19,7 @@
 namespace relax {
 
 // Searches that take turns and share what they have found and proven, `PortfolioOptions::members`. Which one is best
-// cannot be told beforehand: the decomposition graph's bound costs next to nothing, and now and then proves in
+// cannot be told beforehand: the decomposition graph's bound costs next to nothing, and sometimes proves in
 // milliseconds what landmark cuts do not in minutes; elsewhere it is the other way round. When one has ended, all have.
 //
 // Sound: each member's bound holds for every plan that costs less than its upper bound, which is the user's or the cost

@@ -28,11 +28,11 @@ struct FindPlansOptions : ProgressionSwitches, BoundSwitches {
     std::vector<const HeuristicInfo*> heuristics = {&heuristic_named("lmcut")};
     double weight = 1.0;              // of h; at least 1, and 1 for A*
     std::optional<Cost> upper_bound;  // only plans that cost less are wanted
-    bool selective = true;            // ask an admissible heuristic rarely while it tells no more than the cheap bound
+    bool selective = true;            // ask an admissible heuristic rarely while it exceeds the cheap bounds rarely
     bool endings = true;              // leave out networks in partial order whose last actions cannot be executed
-    bool merge_sequences = true;      // networks whose actions in a row need and change the same are the same
-    bool learn_branching = true;      // decompose the task that has left the fewest nodes to expand so far
-    bool follow_forced = true;        // pass through nodes with but one way to go on
+    bool merge_sequences = true;      // networks of one form count as one (TaskNetworks::form)
+    bool learn_branching = true;      // decompose the task that has led to the fewest expansions so far
+    bool follow_forced = true;        // pass through nodes with a single successor
 };
 
 struct GreedyOptions : ProgressionSwitches {

@@ -12,7 +12,7 @@
 namespace relax {
 
 // Open nodes in buckets by h and g; what comes next is a random node of a random bucket, so that rare kinds of nodes
-// have their turn (Xie, Mueller, Holte and Imai, "Type-Based Exploration with Multiple Search Queues for Satisficing
+// are expanded, too (Xie, Mueller, Holte and Imai, "Type-Based Exploration with Multiple Search Queues for Satisficing
 // Planning", AAAI 2014). The sequence of random numbers is always the same.
 class TypeBasedList {
 public:
