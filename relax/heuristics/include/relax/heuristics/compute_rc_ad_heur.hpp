@@ -10,9 +10,13 @@
 
 namespace relax {
 
-// computeRCAdHeur (the paper's Algorithm 5): a classical heuristic on a relaxed model. In the composition model methods
-// are free and actions cost what they are worth to the agent. The model is built once; a node only selects its part of
-// it.
+// computeRCAdHeur, the paper's Algorithm 5: a classical heuristic on a relaxed model. Where it differs from the paper:
+//
+// - Lines 2 to 6: the model is built once, with its costs; a node selects the part of it that its network reaches. In
+// the
+//   composition model (`composition_model`) methods cost 0 (lines 3 and 4) and actions their risk cost (lines 5 and 6),
+//   which adds up along a plan; the plain expected utility of the paper does not for exponential utilities.
+// - `decomposition_model` is another model to ask a classical heuristic about.
 template <typename ClassicalHeuristic>
 class RcHeuristic final : public Heuristic {
 public:
@@ -20,8 +24,8 @@ public:
         : model_(model), task_(model, ClassicalHeuristic::kReadsOperators, limits), classical_(model, limits) {}
 
     std::optional<Cost> evaluate(const NodeView& node) override {
-        task_.set(node);
-        return classical_.run(task_);
+        task_.set(node);               // 2
+        return classical_.run(task_);  // 7, 8
     }
 
     std::uint64_t work() const override {
