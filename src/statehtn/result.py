@@ -72,6 +72,8 @@ class Result(RunResult[Settings]):
         statistics: the effort.
         stopped: what ended the run before it was done, with or without a plan: a limit or an interruption; None for
             nothing.
+        unread: whether a plan was found, better than what is there, that has too many tasks to be put together before
+            that.
         found: the best plan found, and what it is worth; `plan`, `steps` and the prices below are its own. A limit or
             an interruption may come before it is validated: then the status is `solved`, and the prices are those of
             the search.

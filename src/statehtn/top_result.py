@@ -49,6 +49,7 @@ class TopPlans(RunResult[TopSettings], Sequence[RankedPlan]):
         settings: what was asked for.
         statistics: the effort.
         stopped: what ended the search before it was done, if anything did.
+        unread: whether more plans were found that could not be put together before that.
         plans: the plans.
         is_all: it is proven that there are no other plans.
         lower_bound: no plan that is not among them has a lower risk cost, in the domain's unit; None where there is
