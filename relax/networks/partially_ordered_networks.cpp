@@ -229,7 +229,8 @@ void PartiallyOrderedNetworks::trace(NetworkId network, std::size_t changed, std
 }
 
 Cost PartiallyOrderedNetworks::bound(NetworkId network, std::span<const Cost> task_bounds,
-                                     const FlatArray<Cost>& /*by_network*/, FlatArray<Cost>& by_component) const {
+                                     const SegmentedArray<Cost>& /*by_network*/,
+                                     SegmentedArray<Cost>& by_component) const {
     Cost sum = 0;
     for (const ComponentId id : components(network)) {
         while (id >= by_component.size()) {

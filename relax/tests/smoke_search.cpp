@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cstdio>
 #include <initializer_list>
+#include <optional>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -130,6 +132,27 @@ relax::PortfolioOptions by_turns() {
     return options;
 }
 
+// Searches in two threads share what is made once for a problem and its prices.
+bool solve_in_two_threads(bool ordered) {
+    const relax::AnalysedProblem problem(make_problem(ordered));
+    const relax::PricedProblem priced(problem, {{3, 5, 4}, {}});
+    std::optional<relax::Cost> found;
+    std::optional<relax::Cost> found_by_other;
+    const auto search = [&priced](std::optional<relax::Cost>& cost) {
+        relax::Limits limits;
+        relax::SearchStatistics statistics;
+        cost = relax::search(priced, by_turns(), limits, statistics).cost;
+    };
+    std::thread other([&] { search(found_by_other); });
+    search(found);
+    other.join();
+    const bool good = found == relax::Cost{15} && found_by_other == found;
+    if (!good) {
+        std::printf("wrong: two threads, ordered %d\n", ordered);
+    }
+    return good;
+}
+
 // The four best plans; every action is its own label.
 bool solve_for_several(bool ordered, relax::Distinct distinct, const std::vector<relax::Cost>& expected) {
     const relax::AnalysedProblem problem(make_problem(ordered));
@@ -182,6 +205,7 @@ int main() {
             }
         }
         ++(solve(ordered, "by turns", by_turns(), true) ? passed : failed);
+        ++(solve_in_two_threads(ordered) ? passed : failed);
     }
     ++(solve_for_several(true, relax::Distinct::Sequence, {15, 18, 18, 21}) ? passed : failed);
     ++(solve_for_several(false, relax::Distinct::Sequence, {15, 15, 15, 18}) ? passed : failed);

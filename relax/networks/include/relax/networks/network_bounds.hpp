@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "relax/base/flat_array.hpp"
 #include "relax/base/ids.hpp"
+#include "relax/base/segmented_array.hpp"
 #include "relax/networks/task_network.hpp"
 
 namespace relax {
@@ -29,8 +29,8 @@ public:
 private:
     const TaskNetworks& networks_;
     std::span<const Cost> task_bounds_;
-    FlatArray<Cost> by_network_;
-    FlatArray<Cost> by_component_;
+    SegmentedArray<Cost> by_network_;
+    SegmentedArray<Cost> by_component_;
 };
 
 }  // namespace relax

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "relax/analysis/analysed_problem.hpp"
-#include "relax/base/flat_array.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
+#include "relax/base/segmented_array.hpp"
 #include "relax/networks/ordered_tasks.hpp"
 
 namespace relax {
@@ -56,8 +56,8 @@ public:
                                 std::vector<Origin>* origins = nullptr) = 0;
     // The sum of the tasks' bounds, given those of all networks made before. Components, if networks have any, are
     // added to `by_component`. (See NetworkBounds.)
-    virtual Cost bound(NetworkId network, std::span<const Cost> task_bounds, const FlatArray<Cost>& by_network,
-                       FlatArray<Cost>& by_component) const = 0;
+    virtual Cost bound(NetworkId network, std::span<const Cost> task_bounds, const SegmentedArray<Cost>& by_network,
+                       SegmentedArray<Cost>& by_component) const = 0;
     virtual std::uint32_t size(NetworkId network) const = 0;
     // Networks of one form, each with a state that it can be reached with, have the same plans but for some actions
     // between the same compound tasks, if the states agree as far as either network reads them. The cheapest plan of

@@ -45,8 +45,8 @@ public:
     void ordered_tasks(NetworkId network, OrderedTasks& ordered) const override;
     NetworkId progress(NetworkId network, std::uint32_t index, std::vector<Origin>* origins) override;
     NetworkId decompose(NetworkId network, std::uint32_t index, MethodId method, std::vector<Origin>* origins) override;
-    Cost bound(NetworkId network, std::span<const Cost> task_bounds, const FlatArray<Cost>& by_network,
-               FlatArray<Cost>& /*by_component*/) const override {
+    Cost bound(NetworkId network, std::span<const Cost> task_bounds, const SegmentedArray<Cost>& by_network,
+               SegmentedArray<Cost>& /*by_component*/) const override {
         const Cell& cell = cells_[network];
         return network == kEmpty ? 0 : add_bounds(by_network[cell.rest], task_bounds[cell.first]);
     }
