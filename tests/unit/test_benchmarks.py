@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import re
 from argparse import Namespace
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, fields, replace
 from pathlib import Path
@@ -28,7 +30,8 @@ from tests.benchmarks.search_summary import Compared, domain_table, effort_table
 from tests.benchmarks.suite import ablation_suite, search_suite
 from tests.benchmarks.tables import measure_all, read_rows, table
 
-AV = Path(__file__).parents[2] / "domains" / "av"
+ROOT = Path(__file__).parents[2]
+AV = ROOT / "domains" / "av"
 RUN = Row("total-order/A", "p1", "state", "auto", "optimal", 3.0, expanded=10, evaluated=20, search_seconds=0.01)
 EASY = Compared(**vars(RUN), baseline_cost=3.0, baseline_seconds=1.0, baseline_expanded=40)
 HARD = replace(EASY, problem="p2", search_seconds=0.5, baseline_seconds=0.25)
@@ -174,6 +177,21 @@ def test_growth_leaves_out_what_is_unsolved_or_too_short() -> None:
     assert points(rows, MEASURES[0]) == [(100, 0.1)]
     assert fit(points(rows, MEASURES[0])) is None
     assert cells(list(exponent_table({"F": rows}))[2]) == ["F", "seconds of search", "too few problems", "1", ""]
+
+
+def test_the_suite_of_growth_finds_its_problems() -> None:
+    runs = runs_of(str(ROOT / "tests/benchmarks/growth.toml"), Grid(repeat=1))
+    sizes = Counter(run.instance.domain for run in runs)
+    assert sizes == {"Satellite": len(range(3, 11)), "Vehicle": len(list(AV.glob("p*.hddl")))}
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "docs/benchmarks").glob("*.md")), ids=lambda page: page.name)
+def test_the_commands_of_the_pages_have_their_options(page: Path) -> None:
+    for module, arguments in re.findall(r"python -m tests\.benchmarks\.(\w+)([^`\n|>]*)", page.read_text("utf-8")):
+        files = [ROOT / f"tests/benchmarks/{name}.py" for name in (module, "tables")]
+        known = "".join(file.read_text("utf-8") for file in files)
+        options = re.findall(r"--[a-z-]+", re.sub(r'"[^"]*"', "", arguments))
+        assert [option for option in options if f'add_argument("{option}"' not in known] == []
 
 
 def test_memory_grows_from_that_of_the_smallest_process() -> None:
