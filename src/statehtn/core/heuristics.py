@@ -54,11 +54,6 @@ class HeuristicEvaluator:
         self._scale = Scale.first(problem.bounds())
         self._evaluator = _relax.Evaluator(problem.on(self._scale).handle, heuristic)
 
-    @property
-    def model_bytes(self) -> int:
-        """The size of the relaxed model that an evaluation reads at most; 0 for a heuristic without one."""
-        return self._evaluator.model_bytes
-
     def __call__(
         self, state: Iterable[int], tasks: Iterable[int], ordering: Iterable[tuple[int, int]] | None = None
     ) -> float | None:
