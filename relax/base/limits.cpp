@@ -1,5 +1,7 @@
 #include "relax/base/limits.hpp"
 
+#include <utility>
+
 #if defined(__linux__)
 #include <unistd.h>
 
@@ -33,6 +35,9 @@ Limits::Clock::time_point coarse_now() {
 }  // namespace
 
 std::optional<StopReason> Limits::look() {
+    if (steps && ++looks_ * kCallsUntilClock > *steps) {
+        reason_ = StopReason::TimeLimit;
+    }
     const auto now = coarse_now();
     if (reason_ || now - last_look_ < kLookInterval) {
         return reason_;
@@ -52,7 +57,11 @@ std::optional<StopReason> Limits::look() {
 }
 
 Limits::Grace::Grace(Limits& limits)
-    : limits_(limits), deadline_(limits.deadline), memory_bytes_(limits.memory_bytes), reason_(limits.reason_) {
+    : limits_(limits),
+      deadline_(limits.deadline),
+      steps_(std::exchange(limits.steps, std::nullopt)),
+      memory_bytes_(limits.memory_bytes),
+      reason_(limits.reason_) {
     const auto until = Clock::now() + kGrace;
     if (reason_ || (deadline_ && *deadline_ < until)) {
         limits.deadline = until;
@@ -65,6 +74,7 @@ Limits::Grace::Grace(Limits& limits)
 
 Limits::Grace::~Grace() {
     limits_.deadline = deadline_;
+    limits_.steps = steps_;
     limits_.memory_bytes = memory_bytes_;
     limits_.reason_ = reason_;
 }

@@ -123,14 +123,14 @@ void check(const relax::PortfolioOptions& options) {
 
 relax::SearchResult find_plans(const relax::PricedProblem& priced, const relax::SearchOptions& options,
                                std::optional<double> seconds, std::optional<std::size_t> memory_bytes,
-                               const nb::object& progress) {
+                               std::optional<std::uint64_t> steps, const nb::object& progress) {
     std::visit([](const auto& asked) { check(asked); }, options);
     relax::SearchStatistics statistics;
     std::function<void()> watch;
     if (!progress.is_none()) {
         watch = [&] { progress(statistics); };
     }
-    relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
+    relax::Limits limits = python_limits(seconds, memory_bytes, steps, std::move(watch));
     const nb::gil_scoped_release no_gil;
     return relax::search(priced, options, limits, statistics);
 }
@@ -190,5 +190,5 @@ void bind_find_plans(nb::module_& module) {
         .def_prop_ro("model_bytes", &Evaluator::model_bytes);
 
     module.def("find_plans", &find_plans, "priced"_a, "options"_a, "seconds"_a = nb::none(),
-               "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
+               "memory_bytes"_a = nb::none(), "steps"_a = nb::none(), "progress"_a = nb::none());
 }

@@ -56,8 +56,9 @@ using GroundingResult = std::variant<std::unique_ptr<AnalysedProblem>, relax::St
 
 // Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases.
 GroundingResult ground(const relax::LiftedProblem& problem, bool merge_equal, bool replace_single_methods,
-                       bool ask_mutexes, std::optional<double> seconds, std::optional<std::size_t> memory_bytes) {
-    relax::Limits limits = python_limits(seconds, memory_bytes);
+                       bool ask_mutexes, std::optional<double> seconds, std::optional<std::size_t> memory_bytes,
+                       std::optional<std::uint64_t> steps) {
+    relax::Limits limits = python_limits(seconds, memory_bytes, steps);
     std::variant<std::unique_ptr<AnalysedProblem>, relax::StopReason, relax::TooManyCasesOf> result;
     {
         const nb::gil_scoped_release no_gil;
@@ -135,5 +136,5 @@ void bind_ground_problem(nb::module_& module) {
         .def("is_possible", &relax::Mutexes::is_possible, "action"_a);
 
     module.def("ground", &ground, "problem"_a, "merge_equal"_a, "replace_single_methods"_a, "ask_mutexes"_a,
-               "seconds"_a = nb::none(), "memory_bytes"_a = nb::none());
+               "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(), "steps"_a = nb::none());
 }

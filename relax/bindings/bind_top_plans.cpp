@@ -21,7 +21,8 @@ namespace {
 
 relax::TopPlansResult top_plans(const relax::PricedProblem& priced, std::vector<std::optional<relax::ActionName>> names,
                                 const relax::TopPlansOptions& options, std::optional<double> seconds,
-                                std::optional<std::size_t> memory_bytes, const nb::object& progress) {
+                                std::optional<std::size_t> memory_bytes, std::optional<std::uint64_t> steps,
+                                const nb::object& progress) {
     if (names.size() != priced.problem.action_count()) {
         throw std::invalid_argument("there must be one name, or none, for each action");
     }
@@ -33,7 +34,7 @@ relax::TopPlansResult top_plans(const relax::PricedProblem& priced, std::vector<
     if (!progress.is_none()) {
         watch = [&] { progress(statistics); };
     }
-    relax::Limits limits = python_limits(seconds, memory_bytes, std::move(watch));
+    relax::Limits limits = python_limits(seconds, memory_bytes, steps, std::move(watch));
     const nb::gil_scoped_release no_gil;
     return relax::top_plans(priced, std::move(names), options, limits, statistics);
 }
@@ -52,5 +53,5 @@ void bind_top_plans(nb::module_& module) {
         .def_ro("plans", &relax::TopPlansResult::plans);
 
     module.def("top_plans", &top_plans, "priced"_a, "names"_a, "options"_a, "seconds"_a = nb::none(),
-               "memory_bytes"_a = nb::none(), "progress"_a = nb::none());
+               "memory_bytes"_a = nb::none(), "steps"_a = nb::none(), "progress"_a = nb::none());
 }

@@ -6,17 +6,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include "relax/base/limits.hpp"
 
-// Limits for a computation that runs without the GIL: `seconds` from now, `bytes` of resident memory. Now and then the
-// GIL is taken, signals are handled and `watch` is called; a KeyboardInterrupt ends the computation with its result so
-// far, any other exception ends it and is raised.
+// Limits for a computation that runs without the GIL: `seconds` from now, `bytes` of resident memory, `steps`. Now and
+// then the GIL is taken, signals are handled and `watch` is called; a KeyboardInterrupt ends the computation with its
+// result so far, any other exception ends it and is raised.
 inline relax::Limits python_limits(std::optional<double> seconds, std::optional<std::size_t> bytes,
-                                   std::function<void()> watch = {}) {
+                                   std::optional<std::uint64_t> steps, std::function<void()> watch = {}) {
     namespace nb = nanobind;
     relax::Limits limits;
     if (seconds) {
@@ -26,6 +27,7 @@ inline relax::Limits python_limits(std::optional<double> seconds, std::optional<
             relax::Limits::Clock::now() + std::chrono::duration_cast<relax::Limits::Clock::duration>(span);
     }
     limits.memory_bytes = bytes;
+    limits.steps = steps;
     limits.poll = [watch = std::move(watch)] {
         const nb::gil_scoped_acquire gil;
         if (PyErr_CheckSignals() != 0) {

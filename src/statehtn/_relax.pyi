@@ -155,6 +155,7 @@ def ground(
     ask_mutexes: bool,
     seconds: float | None = None,
     memory_bytes: int | None = None,
+    steps: int | None = None,
 ) -> GroundProblem | StopReason | tuple[int, list[int]]: ...
 
 class PricedProblem:
@@ -417,6 +418,7 @@ def find_plans(
     options: FindPlansOptions | GreedyOptions | PlanBasedOptions | PortfolioOptions,
     seconds: float | None = None,
     memory_bytes: int | None = None,
+    steps: int | None = None,
     progress: object | None = None,
 ) -> SearchResult: ...
 
@@ -442,5 +444,6 @@ def top_plans(
     options: TopPlansOptions,
     seconds: float | None = None,
     memory_bytes: int | None = None,
+    steps: int | None = None,
     progress: object | None = None,
 ) -> TopPlansResult: ...

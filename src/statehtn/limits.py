@@ -61,10 +61,12 @@ class Limits:
     Args:
         deadline: seconds of `time.monotonic`, or None.
         memory_mb: resident memory of the whole process, in units of 10^6 bytes, or None.
+        steps: how often a call of the core may look at its limits, or None; it ends at the same node on any machine.
     """
 
     deadline: float | None = None
     memory_mb: float | None = None
+    steps: int | None = None
 
     @staticmethod
     def starting_now(time_limit: float | None = None, memory_limit: float | None = None) -> Limits:
@@ -90,13 +92,15 @@ class Limits:
         return Limits(
             until if is_over else deadline,
             None if self.memory_mb is None else max(self.memory_mb, resident_mb() + self.memory_mb / 20),
+            self.steps,
         )
 
-    def left(self) -> tuple[float | None, int | None]:
-        """Return what is left of the time, in seconds, and the memory in bytes, as the core takes them."""
+    def left(self) -> tuple[float | None, int | None, int | None]:
+        """Return what is left of the time, in seconds, the memory in bytes, and the steps, as the core takes them."""
         return (
             None if self.deadline is None else self.deadline - time.monotonic(),
             None if self.memory_mb is None else int(self.memory_mb * 1e6),
+            self.steps,
         )
 
     def check(self) -> None:

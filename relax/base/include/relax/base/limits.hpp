@@ -26,6 +26,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     std::optional<Clock::time_point> deadline;
+    std::optional<std::uint64_t> steps;       // questions: a time limit that is the same on every machine
     std::optional<std::size_t> memory_bytes;  // resident memory of the whole process
     std::function<bool()> poll;               // true: the user wants to stop
 
@@ -57,6 +58,7 @@ public:
     private:
         Limits& limits_;
         std::optional<Clock::time_point> deadline_;
+        std::optional<std::uint64_t> steps_;
         std::optional<std::size_t> memory_bytes_;
         std::optional<StopReason> reason_;
     };
@@ -68,6 +70,7 @@ private:
 
     std::optional<StopReason> reason_;
     std::uint32_t calls_ = kCallsUntilClock;
+    std::uint64_t looks_ = 0;
     Clock::time_point last_look_{};
     Clock::time_point last_poll_{};
 };
