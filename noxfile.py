@@ -115,7 +115,7 @@ def tests(session: nox.Session) -> None:
 def precision(session: nox.Session) -> None:
     """Compare 20 000 random problems whose costs are far apart with exact arithmetic (half an hour)."""
     session.install(".", *nox.project.dependency_groups(PROJECT, "test"))
-    thorough = ("--hypothesis-profile", "thorough", "-s")
+    thorough = ("--hypothesis-profile", "thorough", "-rP")
     session.run("pytest", *thorough, "tests/differential/test_optimal_is_optimal.py", *session.posargs)
 
 

@@ -26,7 +26,7 @@ CONDITION = -1  # the last index of the path of a method's precondition
 
 
 class GaveUp(Exception):
-    """The problem is too large, or its space infinite."""
+    """The problem is too large for a solver, or its space infinite."""
 
 
 @dataclass(frozen=True)

@@ -1,40 +1,42 @@
-"""What the differential tests share: solving within limits, and comparing costs."""
+"""What the differential tests share: solving within limits, and comparing costs.
+
+Where a limit comes before the answer, `GaveUp` says so: the example is dropped, and counted (see conftest.py).
+"""
 
 from __future__ import annotations
 
-import pytest
-from hypothesis import assume
+from typing import Any
 
-import statehtn
+import pytest
+
+from statehtn import Problem, Result, Status, TopPlans, pipeline
 from statehtn.core.heuristics import HEURISTICS
-from statehtn.model import Problem
+from statehtn.limits import Limits
+from statehtn.pipeline import Session
 from statehtn.risk import Utility
-from tests.brute_force import GaveUp, optimal_risk_cost
+from statehtn.settings import Settings, TopSettings
+from tests.brute_force import GaveUp
 
 ADMISSIBLE = [name for name, info in HEURISTICS.items() if info.admissible]
-SECONDS = 0.5
+LIMITS = Limits(steps=200_000)  # some tenths of a second, whatever the machine
 
 
-def brute_force(problem: Problem, utility: Utility) -> float | None:
-    """The optimum by exhaustion; the example is dropped if that takes too long."""
-    try:
-        return optimal_risk_cost(problem, utility)
-    except GaveUp:
-        assume(False)
-        raise
-
-
-def solve(problem: Problem, utility: Utility, **options: object) -> statehtn.Result:
+def solve(problem: Problem, utility: Utility, **options: Any) -> Result:
     """The planner's answer, which a limit may have ended: recursion makes some spaces infinite at no cost."""
-    return statehtn.plan(problem, attitude=utility.attitude, alpha=utility.alpha, time_limit=SECONDS, **options)
+    return pipeline.solve(Session(problem), Settings.of(utility, **options), LIMITS)
 
 
-def solve_or_drop(problem: Problem, utility: Utility, **options: object) -> statehtn.Result:
-    """The planner's answer; the example is dropped if a limit came first."""
-    result = solve(problem, utility, **options)
-    assume(result.status is not statehtn.Status.TIME_LIMIT)
-    return result
+def solve_top(problem: Problem, utility: Utility, k: int, **options: Any) -> TopPlans:
+    """The best plans, as far as they were found within the limit."""
+    return pipeline.solve_top(Session(problem), TopSettings.of(k, utility, **options), LIMITS)
 
 
-def close_to(cost: float) -> object:
+def must_have_ended(stopped: Status | None) -> None:
+    """Give up where a limit has ended a search."""
+    if stopped is not None:
+        assert stopped is Status.TIME_LIMIT
+        raise GaveUp
+
+
+def close_to(cost: float | None) -> object:
     return pytest.approx(cost, rel=1e-9, abs=1e-9)

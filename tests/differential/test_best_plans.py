@@ -5,33 +5,22 @@ from __future__ import annotations
 from dataclasses import fields
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
-import statehtn
 from statehtn import Status, TopPlans, validate
 from statehtn.core.grounding import GroundingSwitches, ground
 from statehtn.core.pricing import price
 from statehtn.core.switches import TopSwitches
 from statehtn.core.top_plans import find_top_plans
-from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.risk import Utility
-from tests.brute_force import LARGEST_NETWORK, GaveUp, all_plans, best_risk_costs
-from tests.differential.oracles import ADMISSIBLE, SECONDS, close_to
+from tests.brute_force import LARGEST_NETWORK, all_plans, best_risk_costs
+from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_have_ended, solve_top
 from tests.strategies import grounding_switches, problems, utilities
 
 DISTINCT = ("sequence", "multiset")
 SLACK = 1e-9
-
-
-def best(problem: Problem, utility: Utility, k: int, distinct: str) -> list[float]:
-    """The best risk costs by exhaustion; the example is dropped if that takes too long."""
-    try:
-        return best_risk_costs(problem, utility, k, distinct)
-    except GaveUp:
-        assume(False)
-        raise
 
 
 def key(plan: Plan, distinct: str) -> tuple[str, ...]:
@@ -42,7 +31,7 @@ def key(plan: Plan, distinct: str) -> tuple[str, ...]:
 
 def check(problem: Problem, utility: Utility, k: int, distinct: str, result: TopPlans) -> None:
     """The plans are valid and distinct, and those that are claimed to be the best are."""
-    expected = best(problem, utility, k + 1, distinct)
+    expected = best_risk_costs(problem, utility, k + 1, distinct)
     costs = [ranked.risk_cost for ranked in result]
     assert len({key(ranked.plan, distinct) for ranked in result}) == len(result) <= k
     for rank, ranked in enumerate(result, 1):
@@ -66,6 +55,7 @@ def check(problem: Problem, utility: Utility, k: int, distinct: str, result: Top
     elif result.lower_bound is not None:
         cheap = result.lower_bound * (1 - SLACK) - SLACK
         assert [cost for cost in costs if cost < cheap] == close_to([cost for cost in expected[:k] if cost < cheap])
+    must_have_ended(result.stopped)
 
 
 @pytest.mark.parametrize("distinct", DISTINCT)
@@ -73,20 +63,14 @@ def check(problem: Problem, utility: Utility, k: int, distinct: str, result: Top
 @given(data=st.data(), utility=utilities(), k=st.integers(1, 12))
 def test_the_best_plans(distinct: str, orders: tuple[str, ...], data: st.DataObject, utility: Utility, k: int) -> None:
     problem = data.draw(problems(orders))
-    result = statehtn.top_plans(
-        problem, k, attitude=utility.attitude, alpha=utility.alpha, distinct=distinct, time_limit=SECONDS
-    )
+    result = solve_top(problem, utility, k, distinct=distinct)
     check(problem, utility, k, distinct, result)
 
 
 @pytest.mark.parametrize("distinct", DISTINCT)
 @given(problem=problems(), utility=utilities())
 def test_all_plans(distinct: str, problem: Problem, utility: Utility) -> None:
-    try:
-        plans = all_plans(problem, most=1500, largest_network=LARGEST_NETWORK)
-    except GaveUp:
-        assume(False)
-        raise
+    plans = all_plans(problem, most=1500, largest_network=LARGEST_NETWORK)
     keys = {key(plan, distinct) for plan in plans}
     outcome = find_top_plans(price(ground(problem), utility), len(keys) + 1, distinct=distinct)
     assert outcome.is_all
@@ -123,9 +107,9 @@ def test_refinements_keep_the_best_plans(
         k,
         distinct=distinct,
         heuristic=heuristic,
-        limits=Limits.starting_now(SECONDS),
+        limits=LIMITS,
         switches=TopSwitches(**{switch: False}),
     )
-    assume(outcome.stopped is None)
+    must_have_ended(outcome.stopped)
     costs = [validate(problem, plan).risk_cost(utility) for plan in outcome.plans]
-    assert costs == close_to(best(problem, utility, k, distinct))
+    assert costs == close_to(best_risk_costs(problem, utility, k, distinct))

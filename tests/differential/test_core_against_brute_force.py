@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 import statehtn._relax as _relax
@@ -15,19 +15,20 @@ from statehtn.core.heuristics import PORTFOLIO
 from statehtn.core.search import find_plans
 from statehtn.core.searches import SEARCHES
 from statehtn.core.switches import SearchSwitches
-from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.risk import Utility, utility_for
-from tests.differential.oracles import ADMISSIBLE, SECONDS, brute_force, close_to, solve, solve_or_drop
+from tests.brute_force import GaveUp, optimal_risk_cost
+from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_have_ended, solve
 from tests.strategies import grounding_switches, problems, utilities
 
 
 def check(problem: Problem, utility: Utility, result: Result) -> None:
     """The status, the plan and the bound agree with the optimum by exhaustion."""
-    optimum = brute_force(problem, utility)
+    optimum = optimal_risk_cost(problem, utility)
     if optimum is None:
         assert result.status in (Status.UNSOLVABLE, Status.TIME_LIMIT)
         assert result.plan is None
+        must_have_ended(result.stopped)
         return
     assert result.status in (Status.OPTIMAL, Status.SOLVED, Status.TIME_LIMIT)
     assert (result.plan is None) == (result.status is Status.TIME_LIMIT)
@@ -41,6 +42,7 @@ def check(problem: Problem, utility: Utility, result: Result) -> None:
     if result.status is Status.OPTIMAL:
         assert result.risk_cost == close_to(optimum)
         assert result.lower_bound == close_to(optimum)
+    must_have_ended(result.stopped)
 
 
 @pytest.mark.parametrize("heuristic", ADMISSIBLE)
@@ -77,11 +79,10 @@ def test_every_search_keeps_what_its_status_says(search: str, problem: Problem, 
     heuristic=st.sampled_from([PORTFOLIO, *(name for name in ADMISSIBLE if name != "blind")]),
 )
 def test_optimum_without_a_refinement(switch: str, problem: Problem, utility: Utility, heuristic: str) -> None:
-    optimum = brute_force(problem, utility)
+    optimum = optimal_risk_cost(problem, utility)
     switches = SearchSwitches(**{switch: False})
-    limits = Limits.starting_now(SECONDS)
-    outcome = find_plans(ground(problem), utility, heuristic=heuristic, limits=limits, switches=switches)
-    assume(outcome.status not in (Status.TIME_LIMIT, Status.SOLVED))  # without the bound, some spaces are infinite
+    outcome = find_plans(ground(problem), utility, heuristic=heuristic, limits=LIMITS, switches=switches)
+    must_have_ended(outcome.stopped)  # without the bound, some spaces are infinite
     if optimum is None:
         assert outcome.plan is None
     else:
@@ -94,10 +95,10 @@ def test_optimum_without_a_refinement(switch: str, problem: Problem, utility: Ut
 def test_refinements_of_grounding_keep_the_plans(
     search: str, problem: Problem, utility: Utility, switches: GroundingSwitches
 ) -> None:
-    optimum = brute_force(problem, utility)
+    optimum = optimal_risk_cost(problem, utility)
     grounding = ground(problem, switches=switches)
-    outcome = find_plans(grounding, utility, search=search, limits=Limits.starting_now(SECONDS))
-    assume(outcome.status is not Status.TIME_LIMIT)
+    outcome = find_plans(grounding, utility, search=search, limits=LIMITS)
+    must_have_ended(outcome.stopped)
     assert (outcome.plan is None) == (optimum is None)
     if outcome.plan is not None:
         validation = validate(problem, outcome.plan)
@@ -108,8 +109,9 @@ def test_refinements_of_grounding_keep_the_plans(
 
 @given(problem=problems(), utility=utilities())
 def test_weighted_search_keeps_its_promise(problem: Problem, utility: Utility) -> None:
-    result = solve_or_drop(problem, utility, search="weighted", weight=3.0)
-    optimum = brute_force(problem, utility)
+    result = solve(problem, utility, search="weighted", weight=3.0)
+    must_have_ended(result.stopped)
+    optimum = optimal_risk_cost(problem, utility)
     assert (result.plan is None) == (optimum is None)
     if optimum is not None:
         assert result.plan is not None
@@ -121,8 +123,9 @@ def test_weighted_search_keeps_its_promise(problem: Problem, utility: Utility) -
 
 @given(problem=problems(), utility=utilities())
 def test_greedy_search_finds_a_plan_where_there_is_one(problem: Problem, utility: Utility) -> None:
-    result = solve_or_drop(problem, utility, search="greedy")
-    optimum = brute_force(problem, utility)
+    result = solve(problem, utility, search="greedy")
+    must_have_ended(result.stopped)
+    optimum = optimal_risk_cost(problem, utility)
     assert (result.plan is None) == (optimum is None)
     if optimum is not None:
         assert result.plan is not None
@@ -138,6 +141,7 @@ def test_methods_that_wait_until_they_are_due_keep_a_plan(problem: Problem, expl
     options.explores = explores
     options.when_due = True
     priced = _relax.PricedProblem(handle, [1] * len(handle.action_schema), [1] * handle.cost_part_count)
-    result = _relax.find_plans(priced, options, seconds=SECONDS)
-    assume(result.status is not _relax.SearchStatus.TimeLimit)
-    assert (result.cost is None) == (brute_force(problem, utility_for("neutral")) is None)
+    result = _relax.find_plans(priced, options, steps=LIMITS.steps)
+    if result.stop is not None:
+        raise GaveUp
+    assert (result.cost is None) == (optimal_risk_cost(problem, utility_for("neutral")) is None)

@@ -19,11 +19,10 @@ from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.risk import utility_for
-from tests.differential.oracles import close_to
+from tests.differential.oracles import LIMITS, close_to, must_have_ended
 
 Tiles = Sequence[tuple[str, str]]
 
-SECONDS = 0.3
 MOST_COST = 60  # of a correspondence that the oracle looks for
 
 
@@ -87,7 +86,7 @@ def test_correspondences(tiles: Tiles) -> None:
     problem = post(tiles)
     utility = utility_for("neutral")
     for heuristic in ("auto", "tdg"):
-        outcome = find_plans(ground(problem), utility, heuristic=heuristic, limits=Limits.starting_now(SECONDS))
+        outcome = find_plans(ground(problem), utility, heuristic=heuristic, limits=LIMITS)
         optimum = correspondence(tiles)
         if outcome.status is Status.UNSOLVABLE:
             assert optimum is None
@@ -99,6 +98,7 @@ def test_correspondences(tiles: Tiles) -> None:
         if optimum is not None:
             assert outcome.lower_bound is not None
             assert outcome.lower_bound <= optimum + 1e-9
+        must_have_ended(outcome.stopped)
 
 
 def test_no_tile_begins_alike() -> None:

@@ -18,13 +18,11 @@ from statehtn.core.grounding import ground
 from statehtn.core.search import find_plans
 from statehtn.core.searches import SEARCHES
 from statehtn.core.switches import SearchSwitches
-from statehtn.limits import Limits
 from statehtn.risk import utility_for
-from tests.differential.oracles import close_to
+from tests.differential.oracles import LIMITS, close_to, must_have_ended
 
 FACTS = ("p", "q")
 TASKS = ("t0", "t1")
-SECONDS = 0.3
 State = frozenset[str]
 Literals = tuple[tuple[str, bool], ...]
 
@@ -118,7 +116,7 @@ def test_recursion_keeps_its_plans(search: str, recursion: Recursion, follows: b
         utility,
         search=search,
         weight=2.0,
-        limits=Limits.starting_now(SECONDS),
+        limits=LIMITS,
         switches=SearchSwitches(follow_forced=follows),
     )
     optimum = recursion.optimum()
@@ -126,6 +124,7 @@ def test_recursion_keeps_its_plans(search: str, recursion: Recursion, follows: b
     assert (outcome.status is Status.UNSOLVABLE) <= (optimum == math.inf)
     if outcome.plan is not None:
         assert validate(problem, outcome.plan).risk_cost(utility) >= optimum * (1 - 1e-9)
+    must_have_ended(outcome.stopped)
 
 
 LEFT_FIRST = Recursion(
