@@ -121,7 +121,7 @@ def draw(graph: nx.DiGraph) -> str:
         dot.add_subgraph(cluster)
     for edge in sorted(graph.edges):
         dot.add_edge(pydot.Edge(*(f'"{room}"' for room in edge)))
-    picture = dot.create(format="svg").decode("utf-8")
+    picture = str(dot.create(format="svg"), "utf-8")
     picture = re.sub(r"<!--.*?-->\n?", "", picture, flags=re.DOTALL)
     picture = re.sub(r'<polygon fill="white" stroke="transparent"[^>]*/>\n', "", picture)
     return re.sub(r"(<svg[^>]*>\n)", lambda opening: opening[1] + STYLE, picture, count=1, flags=re.DOTALL)

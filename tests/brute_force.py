@@ -103,7 +103,7 @@ class Space:
             elif pending.name in self.problem.domain.actions:
                 state = self.semantics.execute(pending.name, pending.arguments, node.state)
                 if state is not None:
-                    cost = 0
+                    cost = 0.0
                     if utility is not None:
                         cost = utility.risk_cost(self.semantics.law(pending.name, pending.arguments, node.state))
                     last = Event(pending.path, node.last, step=Step(pending.name, pending.arguments))

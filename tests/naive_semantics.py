@@ -99,7 +99,8 @@ class Semantics:
         bindings = self.bind(action, arguments)
         if bindings is None or not self.holds(action.precondition, bindings, state):
             return None
-        added, deleted = set(), set()
+        added: set[Fact] = set()
+        deleted: set[Fact] = set()
         for effect in action.effects:
             for more in self.all_bindings(effect.parameters):
                 inner = {**bindings, **more}

@@ -15,14 +15,14 @@ class Process(subprocess.Popen[str]):
     def __exit__(self, kind: type[BaseException] | None, *rest: object) -> None:
         if kind is not None:
             self.kill()
-        super().__exit__(kind, *rest)  # type: ignore[arg-type]
+        super().__exit__(kind, *rest)
 
 
 def start(*arguments: str, **options: object) -> Process:
     """Start `statehtn` with pipes for its output, unless the options of `Popen` say otherwise."""
     command = [sys.executable, "-m", "statehtn", *arguments]
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
-    return Process(command, **streams)  # type: ignore[call-overload, no-any-return]
+    return Process(command, **streams)
 
 
 def wait_until_signals_are_caught(process: subprocess.Popen[str], seconds: float = 20.0) -> None:

@@ -122,7 +122,7 @@ def problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     actions = {f"a{i}": draw(action(names, f"a{i}", costly)) for i in range(draw(st.integers(2, 5)))}
     count = draw(st.integers(2, 4))
     tasks = {f"t{i}": Signature(f"t{i}", names.parameters(draw, 1, "y")) for i in range(count)}
-    methods = {}
+    methods: dict[str, Method] = {}
     for task in tasks.values():
         for i in range(draw(st.integers(1, 3))):
             name = f"{task.name}-m{i}"
@@ -277,7 +277,8 @@ def task_network(
             continue
         else:
             compound = bool(tasks) and chance(draw, 0.5)
-            chosen = draw(st.sampled_from(list(tasks.values() if compound else actions.values())))
+            named: Sequence[Action | Signature] = list(tasks.values() if compound else actions.values())
+            chosen = draw(st.sampled_from(named))
         arguments = tuple(names.term(draw, parameter.types[0], scope) for parameter in chosen.parameters)
         subtasks.append(Subtask(f"s{i}", chosen.name, arguments))
     return TaskNetwork(tuple(subtasks), draw(ordering(size, orders)))

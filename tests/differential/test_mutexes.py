@@ -70,7 +70,7 @@ def test_mutexes_never_hold_together(problem: Problem) -> None:
     model = grounding.to_model()
     mutexes = _relax.Mutexes(grounding.handle)
     states = reachable(model)
-    together = set()
+    together: set[tuple[int, ...]] = set()
     for state in states:
         literals = [2 * fact + (fact not in state) for fact in range(len(model.facts))]
         together.update(itertools.combinations(literals, 2))

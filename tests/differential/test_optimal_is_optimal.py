@@ -37,7 +37,7 @@ def check(result: Result, optimum: object, search: object) -> None:
         must_have_ended(result.stopped)
         assert result.status is Status.UNSOLVABLE
         return
-    least = float(optimum)  # type: ignore[arg-type]
+    least = float(optimum)
     assert result.status is not Status.UNSOLVABLE
     bound = result.lower_bound
     assert bound is None or bound <= least * (1 + ROUNDING)
@@ -60,7 +60,7 @@ def check(result: Result, optimum: object, search: object) -> None:
 
 def check_top(result: TopPlans, expected: list[object]) -> None:
     """Compare the best plans with their costs in exact arithmetic, and that of the next one if there is one."""
-    best = [float(cost) for cost in expected]  # type: ignore[arg-type]
+    best = [float(cost) for cost in expected]
     costs = [ranked.risk_cost for ranked in result]
     assert all(cost <= after * (1 + EQUAL) for cost, after in pairwise(costs))
     for cost, least in zip(costs[: result.proven], best, strict=False):
@@ -82,7 +82,7 @@ def examples() -> settings:
 @given(problem=problems(), agent=agents(), options=st.sampled_from(SEARCHES))
 def test_optimal_is_optimal(problem: Problem, agent: tuple[str, float | None], options: dict[str, object]) -> None:
     utility = utility_for(*agent)
-    optimum = optimal_risk_cost(problem, ExactUtility(utility), MOST_NODES)  # type: ignore[arg-type]
+    optimum = optimal_risk_cost(problem, ExactUtility(utility), MOST_NODES)
     check(solve(problem, utility, **options), optimum, options.get("search"))
 
 
@@ -98,5 +98,5 @@ def test_the_best_are_the_best(
     problem: Problem, agent: tuple[str, float | None], k: int, distinct: str, heuristic: str
 ) -> None:
     utility = utility_for(*agent)
-    expected = best_risk_costs(problem, ExactUtility(utility), k + 1, distinct, MOST_NODES)  # type: ignore[arg-type]
+    expected = best_risk_costs(problem, ExactUtility(utility), k + 1, distinct, MOST_NODES)
     check_top(solve_top(problem, utility, k, distinct=distinct, heuristic=heuristic), list(expected))

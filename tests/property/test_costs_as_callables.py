@@ -10,7 +10,7 @@ from hypothesis import given
 import statehtn
 from statehtn.build import ExternalFunction
 from statehtn.core.grounding import ground
-from statehtn.model import Action, CostBlock, CostDistribution, Problem
+from statehtn.model import Action, CostBlock, CostDistribution, CostLaw, Problem
 from statehtn.model.cost.ground_cost import block_law
 from tests.strategies import problems
 
@@ -18,7 +18,7 @@ from tests.strategies import problems
 def with_callables(problem: Problem, calls: list[tuple[str, ...]]) -> Problem:
     """The problem with callables that say what the blocks said; blocks for all objects of a kind stay as they are."""
 
-    def answer(action: Action, block: CostBlock, index: int, *arguments: str) -> CostDistribution:
+    def answer(action: Action, block: CostBlock, index: int, *arguments: str) -> CostLaw:
         calls.append((action.name, str(index), *arguments))
         return block_law(block, action, arguments, (), problem.function_values)
 
@@ -40,10 +40,12 @@ def with_callables(problem: Problem, calls: list[tuple[str, ...]]) -> Problem:
 def laws(problem: Problem) -> list[tuple[tuple[str, ...], list[tuple[float, float]]]]:
     """The name and the cost of every ground action; floats to the digits that rounding leaves."""
     model = ground(problem).to_model()
-    return sorted(
-        ((action.name, *action.arguments), [(round(p, 12), round(cost, 9)) for p, cost in action.cost.outcomes])
-        for action in model.actions
-    )
+    return sorted(((action.name, *action.arguments), rounded(action.cost)) for action in model.actions)
+
+
+def rounded(law: CostLaw) -> list[tuple[float, float]]:
+    assert isinstance(law, CostDistribution)
+    return [(round(p, 12), round(cost, 9)) for p, cost in law.outcomes]
 
 
 @given(problems())

@@ -9,7 +9,7 @@ import pytest
 import statehtn
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.experiments.report.paper_tables import agrees
-from statehtn.model import CostDistribution, Plan
+from statehtn.model import CostLaw, Plan
 from statehtn.reference import Heuristic as ReferenceHeuristic
 from statehtn.reference import blind, find_plans, hmax
 from statehtn.risk import expected_utility_text, plan_expected_cost, plan_risk_cost, utility_for
@@ -41,9 +41,9 @@ ABBREVIATIONS = {
 
 
 @cache
-def plans_of_p1() -> dict[tuple[tuple[str, ...], tuple[str, ...]], tuple[Plan, tuple[CostDistribution, ...]]]:
+def plans_of_p1() -> dict[tuple[tuple[str, ...], tuple[str, ...]], tuple[Plan, tuple[CostLaw, ...]]]:
     """All plans of P1 with their cost laws, by route and action names."""
-    found: dict[tuple[tuple[str, ...], tuple[str, ...]], tuple[Plan, tuple[CostDistribution, ...]]] = {}
+    found: dict[tuple[tuple[str, ...], tuple[str, ...]], tuple[Plan, tuple[CostLaw, ...]]] = {}
     for plan in all_plans(problem("av", "p1")):
         validation = validate(problem("av", "p1"), plan)
         assert validation.valid, validation.reasons

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 from statehtn.experiments.report.paper_tables import agrees
-from statehtn.model import CostDistribution, Plan
+from statehtn.model import CostLaw, Plan
 from statehtn.risk import expected_utility_text, plan_expected_cost, plan_risk_cost, utility_for
 from statehtn.validation import validate
 from tests.brute_force import all_plans
@@ -33,9 +33,9 @@ def row_id(row: dict[str, str]) -> str:
 
 
 @cache
-def plans_of_the_smallest() -> dict[tuple[str, ...], tuple[Plan, tuple[CostDistribution, ...]]]:
+def plans_of_the_smallest() -> dict[tuple[str, ...], tuple[Plan, tuple[CostLaw, ...]]]:
     """One plan of RA-3obs-1sat-3mod with its cost laws for every sequence of action names."""
-    found: dict[tuple[str, ...], tuple[Plan, tuple[CostDistribution, ...]]] = {}
+    found: dict[tuple[str, ...], tuple[Plan, tuple[CostLaw, ...]]] = {}
     for plan in all_plans(problem("satellite", SMALLEST)):
         validation = validate(problem("satellite", SMALLEST), plan)
         assert validation.valid, validation.reasons

@@ -135,7 +135,7 @@ def test_expressions_compute_exactly(d: Deliveries) -> None:
     )
     assert -hours == Arithmetic("-", (hours,))
     with pytest.raises(UsageError, match="expected a number, found 'x'"):
-        hours + "x"  # type: ignore[operator]
+        hours + "x"
     with pytest.raises(UsageError, match="expected a finite number, found nan"):
         hours + float("nan")
 
@@ -184,13 +184,13 @@ WRONG: list[tuple[Callable[[Deliveries], object], str]] = [
     (lambda d: d.build.predicate("and"), "is no word of HDDL such as 'and'"),
     (lambda d: d.build.task("a b"), "a name has no spaces"),
     (lambda d: d.build.task("a(b"), "a name has no spaces, parentheses"),
-    (lambda d: d.build.predicate(3), "the name of a predicate must be a string, found 3"),  # type: ignore[arg-type]
+    (lambda d: d.build.predicate(3), "the name of a predicate must be a string, found 3"),
     (lambda d: d.build.action("go"), "there is a task 'go' already"),
     (lambda d: d.build.function("total-cost"), "there is a function 'total-cost' already"),
     (lambda d: d.place.objects("x", "x"), "there is an object 'x' already"),
     (lambda d: d.place.constants("home"), "there is an object 'home' already"),
     (lambda d: (d.truck | d.train).objects("x"), "an object has one type, not a union such as truck | train"),
-    (lambda d: d.build.type("t", above="place"), "a supertype is a type that type() has returned"),  # type: ignore[arg-type]
+    (lambda d: d.build.type("t", above="place"), "a supertype is a type that type() has returned"),
     # arguments
     (lambda d: d.at(d.t1), "predicate 'at' takes 2 arguments, found 1 (declared with ?v - vehicle ?a - place)"),
     (lambda d: d.closed(d.t1), "predicate 'closed' takes no arguments, found 1"),
@@ -198,13 +198,13 @@ WRONG: list[tuple[Callable[[Deliveries], object], str]] = [
     (lambda d: d.at(d.v, d.v), "variable '?v' is of type 'vehicle', but predicate 'at' expects 'place' for '?a'"),
     (lambda d: d.at(d.t1, "homee"), "unknown object 'homee'; did you mean 'home'?"),
     (lambda d: d.at("?v", d.home), "a variable needs a type: use Type.variables('v') instead of '?v'"),
-    (lambda d: d.at(7, d.home), "expected a variable, an object or the name of an object, found 7"),  # type: ignore[arg-type]
+    (lambda d: d.at(7, d.home), "expected a variable, an object or the name of an object, found 7"),
     (lambda d: d.icy(Object("mars", "place")), "object 'mars' of type 'place' is not declared in this builder"),
     (lambda d: d.go(d.t1), "task 'go' takes 2 arguments, found 1"),
     (lambda d: Type(("x",), d.build._declared).objects("y") and d.icy("y"), "object 'y' is of type 'x'"),
     # actions
     (lambda d: d.build.action("x", [d.a, d.a]), "variable '?a' stands twice in one list"),
-    (lambda d: d.build.action("x", ["?a"]), "expected a variable such as Type.variables() makes, found '?a'"),  # type: ignore[list-item]
+    (lambda d: d.build.action("x", ["?a"]), "expected a variable such as Type.variables() makes, found '?a'"),
     (
         lambda d: d.build.action("x", precondition=d.icy(d.b)),
         "variable '?b' is not one of the parameters, as there are",
@@ -226,11 +226,11 @@ WRONG: list[tuple[Callable[[Deliveries], object], str]] = [
         "'home' is an object of the problem; a domain names constants",
     ),
     (lambda d: when(d.closed()), "'when' has a condition and what is due under it, found the condition alone"),
-    (lambda d: d.build.action("x", 5), "expected variables such as Type.variables() makes, found 5"),  # type: ignore[arg-type]
-    (lambda d: d.build.action("x", cost={1: 2}), "a cost is a number"),  # type: ignore[arg-type]
-    (lambda d: d.build.set_network(None), "expected a task with its arguments, such as drive(a, b), found None"),  # type: ignore[arg-type]
-    (lambda d: d.build.set_values(3), "expected a mapping such as {fare(a, b): 4}, found 3"),  # type: ignore[arg-type]
-    (lambda d: when(True, d.closed()), "the condition of 'when' must be a formula, found True"),  # type: ignore[arg-type]
+    (lambda d: d.build.action("x", 5), "expected variables such as Type.variables() makes, found 5"),
+    (lambda d: d.build.action("x", cost={1: 2}), "a cost is a number"),
+    (lambda d: d.build.set_network(None), "expected a task with its arguments, such as drive(a, b), found None"),
+    (lambda d: d.build.set_values(3), "expected a mapping such as {fare(a, b): 4}, found 3"),
+    (lambda d: when(True, d.closed()), "the condition of 'when' must be a formula, found True"),
     # costs
     (lambda d: d.drive(cost=-1), "a cost must not be negative, found -1"),
     (lambda d: d.drive(cost="3"), "a cost is a number, a CostDistribution, an expression of functions, chance(...)"),
@@ -247,27 +247,27 @@ WRONG: list[tuple[Callable[[Deliveries], object], str]] = [
     (lambda _: chance((0.5, 1), (0.4, 2)), "the probabilities of a cost must sum to 1, found 0.9"),
     (lambda d: chance((d.hours("home", "work"), 1), (1.4, 2)), "must sum to 1, found 1.4"),
     (lambda _: chance((-0.5, 1), (1.5, 2)), "a probability must not be negative, found -0.5"),
-    (lambda _: chance(3), "expected a pair (probability, cost), found 3"),  # type: ignore[arg-type]
+    (lambda _: chance(3), "expected a pair (probability, cost), found 3"),
     (lambda _: chance(), "expected pairs (probability, cost), found none"),
     # methods and networks
-    (lambda d: d.build.method("m", d.go), "method 'm' must say what it decomposes, such as travel(here, to)"),  # type: ignore[arg-type]
+    (lambda d: d.build.method("m", d.go), "method 'm' must say what it decomposes, such as travel(here, to)"),
     (lambda d: d.build.method("m", d.drive()(d.v, d.a, d.b)), "cannot decompose 'drive', which is an action"),
     (lambda d: d.build.method("m", d.go(d.v, d.b), [d.drive()(d.v, d.a, d.b)]), "variable '?a - place' is not one of"),
-    (lambda d: d.build.method("m", d.go(d.v, d.b), [d.go]), "expected a task with its arguments, such as drive(a, b)"),  # type: ignore[list-item]
+    (lambda d: d.build.method("m", d.go(d.v, d.b), [d.go]), "expected a task with its arguments, such as drive(a, b)"),
     (lambda d: d.build.method("m", d.go(d.v, d.b), d.go(d.t1, d.b)), "'t1' is an object of the problem"),
     (
         lambda d: d.build.method("m", d.go(d.v, d.b), constraints=d.icy(d.b)),
         "a constraint speaks of variables only (equal() and OfType), found (icy ?b)",
     ),
-    (lambda d: d.build.set_network(d.go(d.t1, d.work), ordering="partial"), "an ordering is 'total' or pairs"),  # type: ignore[arg-type]
+    (lambda d: d.build.set_network(d.go(d.t1, d.work), ordering="partial"), "an ordering is 'total' or pairs"),
     (lambda d: d.build.set_network(d.go(d.t1, d.work, label="a b")), "'a b' cannot name a label"),
     (lambda d: d.build.set_network([d.go(d.t1, d.work, label="x")] * 2), "label 'x' stands twice in one network"),
     (lambda d: d.build.set_network([d.go(d.t1, d.b)]), "variable '?b - place' is not one of the parameters"),
     (lambda d: d.build.build(), "problem 'p' has nothing to do yet: give it tasks by set_network(...)"),
     # the initial state
-    (lambda d: d.build.initially(~d.closed()), "a fact is an atom such as at(l1), found Not("),  # type: ignore[arg-type]
+    (lambda d: d.build.initially(~d.closed()), "a fact is an atom such as at(l1), found Not("),
     (lambda d: d.build.initially(d.icy(d.b)), "variable '?b' is not one of the parameters, as there are none"),
-    (lambda d: d.build.set_values({d.hours(d.home, d.work): "3"}), "expected a number, found '3'"),  # type: ignore[dict-item]
+    (lambda d: d.build.set_values({d.hours(d.home, d.work): "3"}), "expected a number, found '3'"),
     (lambda d: d.build.set_goal(exists([d.b], d.icy(d.a))), "variable '?a' is not one of the parameters (?b - place)"),
     (lambda d: d.build.set_cost("drvie", 1), "unknown action 'drvie'"),
 ]

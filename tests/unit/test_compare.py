@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import platform
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -365,9 +366,9 @@ def run_of(tree: Path, problem: str, time_limit: float | None) -> Run:
 def python(folder: Path, script: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Have a script run in place of every run."""
     program = folder / "python"
-    program.write_text(f"#!{runner.sys.executable}\n{script}\n")
+    program.write_text(f"#!{sys.executable}\n{script}\n")
     program.chmod(0o755)
-    monkeypatch.setattr(runner.sys, "executable", str(program))
+    monkeypatch.setattr(sys, "executable", str(program))
 
 
 def test_a_run_that_does_not_end_is_killed(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -53,8 +53,8 @@ class Cluster:
         wait_for(lambda: self._file.exists() and self._file.read_text().endswith("}"))
         self.address: str = json.loads(self._file.read_text())["address"]
         self.workers = [self._start("worker", "--nthreads", "1", "--no-nanny", *options) for _ in range(2)]
-        for log in ("log-1", "log-2"):
-            wait_for(lambda log=log: "Registered" in (folder / log).read_text())
+        logs = [folder / name for name in ("log-1", "log-2")]
+        wait_for(lambda: all("Registered" in log.read_text() for log in logs))
 
     def _start(self, *words: str) -> subprocess.Popen[bytes]:
         environment = {**os.environ, "TMPDIR": str(self.folder)}

@@ -47,7 +47,9 @@ def drive(*costs: CostBlock) -> Action:
 def law_of(
     *costs: CostBlock, parts: list[tuple[int, tuple[str, ...]]] | None = None
 ) -> tuple[tuple[float, float], ...]:
-    return action_law(drive(*costs), ("a", "b"), parts or [], VALUES, unit_costs=False).outcomes
+    law = action_law(drive(*costs), ("a", "b"), parts or [], VALUES, unit_costs=False)
+    assert isinstance(law, CostDistribution)
+    return law.outcomes
 
 
 def test_expressions_are_exact() -> None:
@@ -153,7 +155,7 @@ def test_external_costs_get_the_action_s_objects() -> None:
 )
 def test_wrong_external_costs_name_the_ground_action(answer: object, message: str) -> None:
     with pytest.raises(InputError, match=re.escape("cost of (drive a b)")) as error:
-        law_of(CostBlock((), external=lambda *_: answer))  # type: ignore[arg-type,return-value]
+        law_of(CostBlock((), external=lambda *_: answer))
     assert message in str(error.value)
 
 
@@ -189,7 +191,8 @@ def test_many_outcomes_are_priced_as_few_are(slope: float) -> None:
         weight = math.fsum(probabilities)
         mean = math.fsum(p * cost for p, cost in law.outcomes[start : start + 100]) / weight
         pieces.append((weight, exponential_mean_of(probabilities, outcomes, mean, slope)))
-    together = exponential_mean_of(*zip(*pieces, strict=True), law.mean, slope)
+    weights, means = ([piece[index] for piece in pieces] for index in (0, 1))
+    together = exponential_mean_of(weights, means, law.mean, slope)
     assert law.exponential_mean(slope) == pytest.approx(together, rel=1e-12)
 
 

@@ -129,7 +129,9 @@ def test_wrong_counts(counts: dict[float, float], prior: float, message: str) ->
 
 
 def test_finite_distributions_of_scipy_become_lists_of_outcomes() -> None:
-    assert CostDistribution.from_scipy(stats.randint(2, 4)).outcomes == ((0.5, 2.0), (0.5, 3.0))
+    law = CostDistribution.from_scipy(stats.randint(2, 4))
+    assert isinstance(law, CostDistribution)
+    assert law.outcomes == ((0.5, 2.0), (0.5, 3.0))
     shifted = CostDistribution.from_scipy(stats.binom(3, 0.5, loc=1))
     assert isinstance(shifted, CostDistribution)
     assert [cost for _, cost in shifted.outcomes] == [1, 2, 3, 4]

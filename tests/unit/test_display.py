@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 import statehtn
 from statehtn import Decomposition, Plan, Result, Step, UsageError
 from statehtn.display.table import Column, Table
-from statehtn.display.tree import TreeRow, tree_text
+from statehtn.display.tree import tree_text
+from statehtn.model.decomposition_tree import TreeRow
 
 DOMAINS = Path(__file__).parents[2] / "domains"
 
@@ -78,7 +79,7 @@ def test_a_result_shows_itself_in_notebooks(result: Result) -> None:
     html = Balanced(result._repr_html_())
     assert html.seen.count("tr") == 1 + len(result.steps) + 1
     assert "(accelerate s l3)" in html.text
-    assert str(result.plan.decomposition) in html.text  # type: ignore[union-attr]
+    assert str(result.plan.decomposition) in html.text
 
 
 @given(st.lists(st.text(max_size=5), min_size=2, max_size=2))

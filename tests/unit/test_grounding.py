@@ -29,7 +29,7 @@ def problem(domain: str, network: str = "(go)", init: str = "(at l0)", goal: str
 
 
 def model(*arguments: str, **more: object) -> GroundProblem:
-    return ground(problem(*arguments, **more), switches=PLAIN).to_model()  # type: ignore[arg-type]
+    return ground(problem(*arguments, **more), switches=PLAIN).to_model()
 
 
 def actions(found: GroundProblem) -> list[tuple[str, ...]]:

@@ -24,6 +24,7 @@ from statehtn.model import (
     Problem,
     TaskNetwork,
 )
+from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.ground_cost import action_law
 from statehtn.model.problem import Action
 
@@ -211,4 +212,5 @@ def test_the_examples_of_the_documentation() -> None:
         assert read_hddl_text(domain, problem, strict=True).network.subtasks
     drive = read_hddl_text(*examples[:2]).domain.actions["drive"]
     law = action_law(drive, ("mountain",), [(2, ())], {}, unit_costs=False)
+    assert isinstance(law, CostDistribution)
     assert law.outcomes == ((0.4, 5.0), (0.4, 6.0), (0.1, 9.0), (0.1, 10.0))

@@ -57,7 +57,7 @@ def press_once_there_is_a_plan(progress: statehtn.Progress) -> None:
 
 
 def test_every_plan_comes_before_the_exception() -> None:
-    seen = []
+    seen: list[statehtn.Result] = []
     results = statehtn.improving(with_a_plan(), progress=press_once_there_is_a_plan, time_limit=60, interrupt="raise")
     with pytest.raises(KeyboardInterrupt):
         seen.extend(iter(lambda: next(results), None))

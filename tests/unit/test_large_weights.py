@@ -31,7 +31,7 @@ def errands(dear: str, scale: int) -> Problem:
 @pytest.mark.parametrize("weight", WEIGHTS)
 def test_a_plan_is_found_and_the_promise_kept(weight: float, scale: int, heuristic: str) -> None:
     problem = errands(DEAR, scale)
-    result = statehtn.plan(problem, search="weighted", weight=weight, heuristic=heuristic, time_limit=60)  # type: ignore[arg-type]
+    result = statehtn.plan(problem, search="weighted", weight=weight, heuristic=heuristic, time_limit=60)
     assert result.status in (Status.OPTIMAL, Status.SOLVED)
     assert result.stopped is None
     assert result.risk_cost is not None
@@ -46,5 +46,5 @@ def test_a_plan_is_found_and_the_promise_kept(weight: float, scale: int, heurist
 @pytest.mark.parametrize("weight", WEIGHTS)
 def test_that_there_is_no_plan_is_proven(weight: float, scale: int, heuristic: str) -> None:
     problem = errands("", scale)
-    result = statehtn.plan(problem, search="weighted", weight=weight, heuristic=heuristic, time_limit=60)  # type: ignore[arg-type]
+    result = statehtn.plan(problem, search="weighted", weight=weight, heuristic=heuristic, time_limit=60)
     assert result.status is Status.UNSOLVABLE

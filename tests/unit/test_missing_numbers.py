@@ -61,7 +61,7 @@ def test_known_parts_of_a_cost_count() -> None:
     """Whatever the fare is, walking for 1 is better than the 2 that sailing costs at least."""
     problem = crossing("(= (toll right) 1)")
     for solver in ("state", "plan"):
-        result = statehtn.plan(problem, solver=solver)  # type: ignore[arg-type]
+        result = statehtn.plan(problem, solver=solver)
         assert ([str(one.step) for one in result.steps], result.risk_cost) == (["(walk left right)"], 1)
     first = statehtn.top_plans(problem, 1)
     assert first.proven == 1

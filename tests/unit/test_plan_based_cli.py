@@ -20,7 +20,7 @@ PROBLEM = "(define (problem p) (:domain d) (:htn :subtasks (and {tasks})) (:init
 
 def plan(domain: str, tasks: str, **options: object) -> statehtn.Result:
     problem = statehtn.read_hddl_text(domain, PROBLEM.format(tasks=tasks))
-    return statehtn.plan(problem, solver="plan", time_limit=30, **options)  # type: ignore[arg-type]
+    return statehtn.plan(problem, solver="plan", time_limit=30, **options)
 
 
 @pytest.mark.parametrize("branch", BRANCHES)

@@ -104,7 +104,7 @@ def problem() -> statehtn.Problem:
 )
 def test_arguments_out_of_range(problem: statehtn.Problem, arguments: dict[str, object]) -> None:
     with pytest.raises(statehtn.UsageError):
-        statehtn.plan(problem, **arguments)  # type: ignore[arg-type]
+        statehtn.plan(problem, **arguments)
 
 
 def test_result_of_an_optimal_plan(problem: statehtn.Problem) -> None:

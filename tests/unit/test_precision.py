@@ -67,7 +67,7 @@ def test_an_action_that_no_good_plan_uses(options: dict[str, object], attitude: 
     size = Fraction(scale)
     ways = [certain(size * Fraction("2.7")), certain(size * Fraction("2.6")), certain(size * FAR)]
     alpha = None if attitude == "neutral" else 0.3 / float(size)
-    result = statehtn.plan(problem_of(ways, 4), attitude=attitude, alpha=alpha, **options)  # type: ignore[arg-type]
+    result = statehtn.plan(problem_of(ways, 4), attitude=attitude, alpha=alpha, **options)
     assert steps(result) == ["(way-1)"] * 4
     check(result, 4 * 2.6 * float(size))
 
@@ -76,10 +76,10 @@ def test_an_action_that_no_good_plan_uses(options: dict[str, object], attitude: 
 def test_an_outcome_that_only_an_averse_agent_fears(options: dict[str, object]) -> None:
     rare = f"(probabilistic 0.99999 (increase (total-cost) 1) 0.00001 {certain(FAR)})"
     problem = problem_of([certain(Fraction("2.7")), certain(Fraction("2.6")), rare], 3)
-    result = statehtn.plan(problem, attitude="averse", alpha=0.2, **options)  # type: ignore[arg-type]
+    result = statehtn.plan(problem, attitude="averse", alpha=0.2, **options)
     assert steps(result) == ["(way-1)"] * 3
     check(result, 3 * 2.6)
-    bold = statehtn.plan(problem, attitude="seeking", alpha=0.2, **options)  # type: ignore[arg-type]
+    bold = statehtn.plan(problem, attitude="seeking", alpha=0.2, **options)
     assert steps(bold) == ["(way-2)"] * 3
 
 
@@ -97,7 +97,7 @@ def test_every_plan_has_to_pay_much() -> None:
 def test_costs_that_are_all_beyond_the_first_cap(options: dict[str, object]) -> None:
     """Recursion that is next to free must not become free, or the search would go down for ever."""
     ways = [certain(Fraction(10) ** power) for power in (60, 40, 80, -30)]
-    result = statehtn.plan(problem_of(ways, 2, again="(t) (t)"), time_limit=30, **options)  # type: ignore[arg-type]
+    result = statehtn.plan(problem_of(ways, 2, again="(t) (t)"), time_limit=30, **options)
     assert steps(result) == ["(way-1)"] * 2
     check(result, 2e40)
 
@@ -151,7 +151,7 @@ def test_a_plan_that_costs_more_than_fixed_point_holds_at_first(options: dict[st
     problem = statehtn.read_hddl_text(
         domain, "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (little) (t13))) (:init))"
     )
-    result = statehtn.plan(problem, **options)  # type: ignore[arg-type]
+    result = statehtn.plan(problem, **options)
     assert len(steps(result)) == 2**13 + 1
     assert result.risk_cost == 2**13 * (2**20 + 0.5) + 1
     assert result.lower_bound is not None

@@ -8,6 +8,7 @@ import pytest
 
 import statehtn
 from statehtn import CostDistribution, Decomposition, Plan, Step
+from statehtn.found_plan import PricedSteps
 from statehtn.model.cost.sum import CostSum
 from tests.test_minimal import DOMAIN, PROBLEM
 
@@ -99,8 +100,8 @@ def test_a_law_of_few_outcomes_lists_them() -> None:
 
 def test_notebooks_show_the_ends_of_very_long_plans(many: dict[str, object]) -> None:
     steps = many["steps"]
-    assert isinstance(steps, statehtn.result.PricedSteps)
-    html = statehtn.result.PricedSteps([*steps] * 10)._repr_html_()
+    assert isinstance(steps, PricedSteps)
+    html = PricedSteps([*steps] * 10)._repr_html_()
     assert "... 2000 more ..." in html
     assert html.count("<tr>") < 1100
 

@@ -10,7 +10,7 @@ import pytest
 
 import statehtn
 from statehtn import Planner, Status, pipeline
-from statehtn.core.grounding import Grounding
+from statehtn.core.grounding import Grounding, ground
 from statehtn.limits import LimitReached
 from statehtn.model import Problem
 from tests.test_minimal import DOMAIN, PROBLEM
@@ -71,7 +71,6 @@ def test_compared_agents_share_one_grounding(problem: Problem, calls: list[str])
 def test_a_phase_that_was_ended_is_begun_anew(
     ending: BaseException, status: str, problem: Problem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    ground = pipeline.ground
     endings = [ending]
 
     def ground_later(*arguments: Any) -> Grounding:
@@ -100,7 +99,7 @@ def test_functions_are_methods_of_a_planner_for_one_call(name: str) -> None:
 
 def test_what_is_no_problem_is_told_at_once() -> None:
     with pytest.raises(statehtn.UsageError, match="problem"):
-        Planner("p1.hddl")  # type: ignore[arg-type]
+        Planner("p1.hddl")
     for name in METHODS:
         with pytest.raises(statehtn.UsageError, match="problem"):
             getattr(statehtn, name)("p1.hddl")

@@ -47,7 +47,7 @@ def find(methods: str, tasks: str, k: int, **options: object) -> TopPlans:
     problem = statehtn.read_hddl_text(
         FREE.format(methods=text), f"(define (problem p) (:domain d) (:htn {tasks}) (:init))"
     )
-    result = statehtn.top_plans(problem, k, **{"time_limit": 20, **options})  # type: ignore[arg-type]
+    result = statehtn.top_plans(problem, k, **{"time_limit": 20, **options})
     assert all(validate(problem, ranked.plan).valid for ranked in result)
     return result
 
@@ -186,7 +186,7 @@ def test_a_limit_leaves_what_was_proven_and_progress_is_told() -> None:
 )
 def test_wrong_arguments(arguments: dict[str, object], message: str) -> None:
     with pytest.raises(UsageError, match=message):
-        statehtn.top_plans(statehtn.read_hddl_text(DOMAIN, PROBLEM), **arguments)  # type: ignore[arg-type]
+        statehtn.top_plans(statehtn.read_hddl_text(DOMAIN, PROBLEM), **arguments)
 
 
 def test_readable(files: Files, capsys: pytest.CaptureFixture[str]) -> None:

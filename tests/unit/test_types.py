@@ -11,7 +11,7 @@ import pytest
 
 from statehtn.core.heuristics import ADMISSIBLE
 from statehtn.core.plan_based import BRANCHES
-from statehtn.core.search import SEARCHES
+from statehtn.core.searches import SEARCHES
 from statehtn.core.top_plans import DISTINCT
 from statehtn.risk import Attitude, AttitudeName
 from statehtn.settings import (
@@ -73,4 +73,4 @@ def test_misspelt_names_are_type_errors(tmp_path: Path) -> None:
     ],
 )
 def test_the_names_for_type_checkers_are_those_that_there_are(names: object, known: object) -> None:
-    assert set(get_args(names)) == set(known)  # type: ignore[call-overload]
+    assert set(get_args(names)) == set(known)

@@ -212,16 +212,16 @@ def test_no_public_function_is_left_out(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: statehtn.plan("d.hddl"), "statehtn.read_hddl(domain, problem)"),  # type: ignore[arg-type]
-        (lambda: statehtn.plan(ProblemBuilder("x")), "build()"),  # type: ignore[arg-type]
-        (lambda: statehtn.validate(builder_of().build(), Path("plan.txt")), "statehtn.read_plan(text, problem)"),  # type: ignore[arg-type]
-        (lambda: statehtn.write_plan(statehtn.plan(builder_of().build()), builder_of().build()), "no plan"),  # type: ignore[arg-type]
+        (lambda: statehtn.plan("d.hddl"), "statehtn.read_hddl(domain, problem)"),
+        (lambda: statehtn.plan(ProblemBuilder("x")), "build()"),
+        (lambda: statehtn.validate(builder_of().build(), Path("plan.txt")), "statehtn.read_plan(text, problem)"),
+        (lambda: statehtn.write_plan(statehtn.plan(builder_of().build()), builder_of().build()), "no plan"),
         (lambda: statehtn.read_hddl("(define (domain d))", "p"), "read_hddl_text"),
-        (lambda: statehtn.read_hddl_text(Path("d"), "p"), "read_hddl reads files"),  # type: ignore[arg-type]
-        (lambda: statehtn.plan(builder_of().build(), search="astra"), "did you mean 'astar'?"),  # type: ignore[arg-type]
-        (lambda: statehtn.plan(builder_of().build(), attitude="avers"), "did you mean 'averse'?"),  # type: ignore[arg-type]
-        (lambda: CostDistribution.of({2: 0.8, 6: 0.2}), "CostDistribution.of([(0.8, 2), (0.2, 6)])"),  # type: ignore[arg-type]
-        (lambda: CostDistribution.of([2, 6]), "CostDistribution.from_samples"),  # type: ignore[list-item]
+        (lambda: statehtn.read_hddl_text(Path("d"), "p"), "read_hddl reads files"),
+        (lambda: statehtn.plan(builder_of().build(), search="astra"), "did you mean 'astar'?"),
+        (lambda: statehtn.plan(builder_of().build(), attitude="avers"), "did you mean 'averse'?"),
+        (lambda: CostDistribution.of({2: 0.8, 6: 0.2}), "CostDistribution.of([(0.8, 2), (0.2, 6)])"),
+        (lambda: CostDistribution.of([2, 6]), "CostDistribution.from_samples"),
     ],
 )
 def test_what_to_write_instead(call: Callable[[], object], words: str) -> None:
@@ -242,7 +242,7 @@ def test_what_people_write_works() -> None:
     assert plan is not None
     assert len(plan.steps) == 4
     assert (plan.simulate(3) == plan.simulate(3)).all()
-    assert statehtn.compare_attitudes(builder.build(), attitudes="neutral").agents == ("neutral",)  # type: ignore[arg-type]
+    assert statehtn.compare_attitudes(builder.build(), attitudes="neutral").agents == ("neutral",)
 
 
 def test_infinite_limits_are_none() -> None:
