@@ -24,7 +24,7 @@ def declarations(stub: str) -> set[str]:
 
 
 def test_the_stub_declares_what_the_module_has() -> None:
-    """Write it anew by `python -m nanobind.stubgen -m statehtn._relax -o src/statehtn/_relax.pyi`, then `make format`."""
+    """To write it anew: `python -m nanobind.stubgen -m statehtn._relax -o src/statehtn/_relax.pyi`, `make format`."""
     stubgen = pytest.importorskip("nanobind.stubgen")
     generator = stubgen.StubGen(_relax)
     generator.put(_relax)
