@@ -122,7 +122,6 @@ def test_the_core_may_be_unable_to_trace_a_plan_in_time(
     read: Callable[[str], statehtn.Problem], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from statehtn import _relax
-    from statehtn.core import staged_run
 
     class Untraced:
         """A result as the core returns it when a limit comes before the plan was traced."""
@@ -132,7 +131,7 @@ def test_the_core_may_be_unable_to_trace_a_plan_in_time(
             self.statistics = found.statistics
 
     find_plans = _relax.find_plans
-    monkeypatch.setattr(staged_run._relax, "find_plans", lambda *args: Untraced(find_plans(*args)))
+    monkeypatch.setattr(_relax, "find_plans", lambda *args: Untraced(find_plans(*args)))
     result = statehtn.plan(read(WALK))
     assert (result.status, result.plan, result.unread) == (Status.TIME_LIMIT, None, True)
     assert result.lower_bound == pytest.approx(5)
