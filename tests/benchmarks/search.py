@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 import csv
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -49,9 +50,18 @@ def read_baseline(path: Path) -> list[Line]:
 
 
 def compared(rows: Iterable[Row], lines: Iterable[Line]) -> list[Compared]:
-    """Return the runs beside the baseline's, in its order; problems that one of them lacks are left out."""
+    """Return the runs beside the baseline's, in its order; problems that one of them lacks are left out.
+
+    A search that took longer than the baseline's was allowed to has not solved the problem.
+    """
     known = {row.name: row for row in rows}
-    return [Compared(**vars(known[name_of(line)]), **baseline_of(line)) for line in lines if name_of(line) in known]
+    found = []
+    for line in lines:
+        if row := known.get(name_of(line)):
+            is_late = (row.search_seconds or 0.0) > float(line["engine_limit"])
+            counted = replace(row, status="time-limit") if is_late else row
+            found.append(Compared(**vars(counted), **baseline_of(line)))
+    return found
 
 
 def report(rows: list[Compared], configuration: str, markdown: bool) -> Iterator[str]:

@@ -87,6 +87,7 @@ def test_bytes_per_node_are_compared_where_both_have_many_nodes() -> None:
 
 def test_runs_are_put_beside_the_baseline_by_their_names() -> None:
     assert compared([RUN, replace(RUN, problem="p9")], [LINE, LINE | {"problem": "p3"}]) == [EASY]
+    assert [row.solved for row in compared([replace(RUN, search_seconds=5.1)], [LINE])] == [False]
 
 
 def test_a_table_is_aligned_and_has_as_many_cells_in_every_line() -> None:
@@ -129,7 +130,7 @@ INSTANCES = {RUN.name: Instance("total-order/A", "p1", str(AV / "domain.hddl"), 
 def test_the_suite_of_a_baseline_has_its_limits(tmp_path: Path) -> None:
     (tmp_path / "search.toml").write_text("\n".join(search_suite(INSTANCES, [LINE])))
     (run,) = runs_of(str(tmp_path / "search.toml"), Grid())
-    assert (f"{run.instance.domain} {run.instance.problem}", run.time_limit) == (RUN.name, 5.0)
+    assert (f"{run.instance.domain} {run.instance.problem}", run.time_limit) == (RUN.name, 65.0)
     assert f"{run.settings.solver} {run.settings.heuristic}" == RUN.configuration
 
 
