@@ -43,7 +43,7 @@ private:
 
     Rows<Literal> contents_;
     std::vector<NodeId> nodes_;
-    IdTable table_;
+    IdTable<> table_;
 };
 
 class Assembly {

@@ -57,7 +57,7 @@ private:
     struct Index {
         std::vector<std::uint32_t> positions;
         bool is_complete = false;        // holds all tuples, not only the visible ones
-        IdTable table;                   // of keys, numbered in order of arrival
+        IdTable<> table;                 // of keys, numbered in order of arrival
         FlatArray<TupleId> newest;       // by key
         FlatArray<std::uint32_t> count;  // by key
         FlatArray<TupleId> older;        // by tuple: the one before with the same key,
@@ -72,7 +72,7 @@ private:
     TupleId size_ = 0;
     TupleId visible_ = 0;
     FlatArray<ObjectId> values_;
-    IdTable table_;
+    IdTable<> table_;
     mutable std::vector<Index> indexes_;  // complete ones are made when they are first asked for
     TupleId counted_ = 0;                 // size at which `distinct_` was counted
     std::vector<std::size_t> distinct_;   // by position

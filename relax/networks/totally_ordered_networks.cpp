@@ -8,7 +8,7 @@ namespace relax {
 
 namespace {
 
-std::uint64_t hash_cell(TaskId first, NetworkId rest) { return mix((std::uint64_t{first} << 32) | rest); }
+std::uint64_t hash_cell(std::uint32_t first, std::uint32_t rest) { return mix((std::uint64_t{first} << 32) | rest); }
 
 }  // namespace
 
@@ -17,8 +17,8 @@ TotallyOrderedNetworks::TotallyOrderedNetworks(const AnalysedProblem& problem, b
     if (use_macros) {
         macros_.emplace(problem, limits);
     }
-    cells_.push_back({0, kEmpty, 0, 0});
-    forms_.push_back({0, 0});
+    cells_.push_back({});
+    forms_.push_back({});
 }
 
 bool TotallyOrderedNetworks::fits(const GroundProblem& problem) {
@@ -105,7 +105,7 @@ NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
         return *known;
     }
     const auto id = static_cast<NetworkId>(cells_.size());
-    cells_.push_back({first, rest, cells_[rest].size + 1, macros_ ? form_of(first, cells_[rest].form) : 0});
+    cells_.push_back({first, rest, cells_[rest].size + 1, macros_ ? form_of(first, cells_[rest].form) : kEmptyForm});
     table_.add(hash, id, [this](NetworkId other) { return hash_cell(cells_[other].first, cells_[other].rest); });
     return id;
 }
@@ -118,8 +118,9 @@ FormId TotallyOrderedNetworks::form_of(TaskId first, FormId rest) {
         return intern_form(first, rest);
     }
     const auto tasks = static_cast<std::uint32_t>(problem_.task_count());
-    const bool continues = rest != kEmpty && forms_[rest].first >= tasks;
-    const auto macro = macros_->prepend(first, continues ? forms_[rest].first - tasks : MacroActions::kNothing);
+    const bool continues = rest != kEmptyForm && forms_[rest].first >= tasks;
+    const auto macro =
+        macros_->prepend(first, continues ? MacroId(forms_[rest].first - tasks) : MacroActions::kNothing);
     if (!macro) {
         return kImpossible;
     }

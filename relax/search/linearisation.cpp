@@ -10,7 +10,7 @@ std::optional<Linearisation::Order> Linearisation::find(NetworkId network, std::
     ++call_;
     open_ = {};
     met_.clear();
-    reach(0, 0, {progression_.initial_state(), network, {}, std::nullopt, {}});
+    reach(NodeId{0}, 0, {progression_.initial_state(), network, {}, std::nullopt, {}});
     while (!open_.is_empty()) {
         stop = limits_.check();
         if (stop) {

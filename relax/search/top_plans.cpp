@@ -90,8 +90,8 @@ TopPlansResult TopPlans::run() {
 // Search until no open node leads to a plan that is wanted. Says why it was stopped before that.
 std::optional<StopReason> TopPlans::search() {
     const NodeId root = find_node(progression_.initial_state(), progression_.initial_network());
-    keep(add_label({0, root, ActionLists::kEmpty, 0, {}, false, false}));
-    push(0);
+    keep(add_label({0, root, ActionLists::kEmpty, LabelId{0}, {}, false, false}));
+    push(LabelId{0});
     while (!open_.is_empty() && open_.top().priority < cutoff()) {
         if (const auto stop = limits_.check()) {
             return stop;

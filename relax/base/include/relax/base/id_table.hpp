@@ -1,6 +1,7 @@
 #ifndef RELAX_BASE_ID_TABLE_HPP
 #define RELAX_BASE_ID_TABLE_HPP
 
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -32,11 +33,12 @@ std::uint64_t hash_values(const Range& values) {
 
 // A hash table of dense numbers whose keys live elsewhere: open addressing, linear probing. Half of each hash is kept,
 // so that full keys are compared only when they are very likely equal.
+template <typename Index = std::uint32_t>
 class IdTable {
 public:
     // Find an element with this hash for which `equal(id)` holds.
     template <typename Equal>
-    std::optional<std::uint32_t> find(std::uint64_t hash, Equal equal) const {
+    std::optional<Index> find(std::uint64_t hash, Equal equal) const {
         if (slots_.empty()) {
             return std::nullopt;
         }
@@ -55,7 +57,8 @@ public:
     // Add an element that is not yet there. Its low 32 bits of hash are found again from `hash_of` when the table
     // grows.
     template <typename HashOf>
-    void add(std::uint64_t hash, std::uint32_t id, HashOf hash_of) {
+    void add(std::uint64_t hash, Index id, HashOf hash_of) {
+        assert(id != kEmpty);
         if (4 * (count_ + 1) > 3 * slots_.size()) {
             std::vector<Slot> old(slots_.empty() ? kFirstSlots : 2 * slots_.size(), Slot{kEmpty, 0});
             old.swap(slots_);
@@ -70,9 +73,10 @@ public:
     }
 
     // Put an element in the place of another one with this hash.
-    void replace(std::uint64_t hash, std::uint32_t old, std::uint32_t id) {
+    void replace(std::uint64_t hash, Index old, Index id) {
         std::size_t at = hash & mask();
         while (slots_[at].id != old) {
+            assert(slots_[at].id != kEmpty);
             at = (at + 1) & mask();
         }
         slots_[at].id = id;
@@ -80,11 +84,11 @@ public:
 
 private:
     struct Slot {
-        std::uint32_t id;
+        Index id;
         std::uint32_t tag;
     };
     static constexpr std::size_t kFirstSlots = 16;  // a power of two
-    static constexpr std::uint32_t kEmpty = std::numeric_limits<std::uint32_t>::max();
+    static constexpr Index kEmpty{std::numeric_limits<std::uint32_t>::max()};
 
     std::size_t mask() const { return slots_.size() - 1; }
 

@@ -16,7 +16,7 @@
 
 namespace relax {
 
-using MacroId = std::uint32_t;
+using MacroId = Id<struct MacroTag>;
 
 // Sequences of actions without conditional effects as one action each: the literals that it needs before, and those
 // that it has made true after. Sequences that need and make the same literals are the same macro-action, whatever they
@@ -36,7 +36,7 @@ using MacroId = std::uint32_t;
 // macro-action can be executed in the same states that can be reached, and lead to the same states.
 class MacroActions {
 public:
-    static constexpr MacroId kNothing = 0;  // the empty sequence, and all that need and make nothing
+    static constexpr MacroId kNothing{0};  // the empty sequence, and all that need and make nothing
 
     MacroActions(const AnalysedProblem& problem, Limits& limits);  // throws Stopped
 
@@ -53,7 +53,7 @@ private:
         std::vector<Literal> made;
         bool operator==(const Macro&) const = default;
     };
-    static constexpr MacroId kImpossible = static_cast<MacroId>(-1);
+    static constexpr MacroId kImpossible{std::numeric_limits<std::uint32_t>::max()};
 
     Macro of_action(ActionId action) const;
     MacroId compose(ActionId action, MacroId rest);
@@ -64,7 +64,7 @@ private:
     const GroundProblem& problem_;
     const Mutexes& mutexes_;
     std::vector<Macro> macros_;  // by MacroId
-    IdTable table_;
+    IdTable<MacroId> table_;
     std::unordered_map<std::uint64_t, MacroId> composed_;  // by the pair of action and rest
 };
 

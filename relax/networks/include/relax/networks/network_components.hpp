@@ -13,7 +13,7 @@
 
 namespace relax {
 
-using ComponentId = std::uint32_t;
+using ComponentId = Id<struct ComponentTag>;
 
 // Tasks that the order ties together, each such component kept once in a canonical form. Two components get the same
 // number only if their forms are equal to the letter, which is a verified isomorphism; that isomorphic components
@@ -57,7 +57,7 @@ private:
 
     RunArena<std::uint64_t> words_;
     SegmentedArray<Record> records_;
-    IdTable table_;
+    IdTable<ComponentId> table_;
     CanonicalOrder canonical_;
     std::vector<std::uint32_t> place_;  // in the canonical order, by index in the draft
     std::vector<std::uint64_t> form_;

@@ -70,9 +70,9 @@ private:
     NetworkComponents components_;
     RunArena<ComponentId> lists_;
     SegmentedArray<Record> records_;
-    IdTable table_;
+    IdTable<NetworkId> table_;
     SegmentedArray<Transition> transitions_;
-    IdTable transition_table_;
+    IdTable<> transition_table_;
 
     // The component being changed.
     OrderedTasks draft_;

@@ -19,8 +19,8 @@
 
 namespace relax {
 
-using NetworkId = std::uint32_t;
-using FormId = std::uint32_t;
+using NetworkId = Id<struct NetworkTag>;
+using FormId = Id<struct FormTag>;
 
 // An occurrence of a task in a network: its index there.
 struct Occurrence {
@@ -62,7 +62,7 @@ public:
     // Networks of one form, each with a state that it can be reached with, have the same plans but for some actions
     // between the same compound tasks, if the states agree as far as either network reads them. The cheapest plan of
     // one costs `bound(one) - bound(other)` more than that of the other.
-    virtual FormId form(NetworkId network) const { return network; }
+    virtual FormId form(NetworkId network) const { return FormId(std::uint32_t{network}); }
     // Whether the network has no plan from any state that can be reached, since some actions of it exclude each other.
     virtual bool is_impossible(NetworkId /*network*/) const { return false; }
 

@@ -51,7 +51,9 @@ public:
         return network == kEmpty ? 0 : add_bounds(by_network[cell.rest], task_bounds[cell.first]);
     }
     std::uint32_t size(NetworkId network) const override { return cells_[network].size; }
-    FormId form(NetworkId network) const override { return macros_ ? cells_[network].form : network; }
+    FormId form(NetworkId network) const override {
+        return macros_ ? cells_[network].form : TaskNetworks::form(network);
+    }
     bool is_impossible(NetworkId network) const override { return macros_ && cells_[network].form == kImpossible; }
 
 private:
@@ -66,8 +68,9 @@ private:
         std::uint32_t first;
         FormId rest;
     };
-    static constexpr NetworkId kEmpty = 0;
-    static constexpr FormId kImpossible = static_cast<FormId>(-1);
+    static constexpr NetworkId kEmpty{0};
+    static constexpr FormId kEmptyForm{0};
+    static constexpr FormId kImpossible{std::numeric_limits<std::uint32_t>::max()};
 
     NetworkId intern(TaskId first, NetworkId rest);
     FormId form_of(TaskId first, FormId rest);
@@ -76,11 +79,11 @@ private:
     const GroundProblem& problem_;
     const Rows<std::uint32_t>& sequences_;
     SegmentedArray<Cell> cells_;
-    IdTable table_;
+    IdTable<NetworkId> table_;
     std::vector<TaskId> earlier_;
     std::optional<MacroActions> macros_;
     SegmentedArray<Form> forms_;
-    IdTable form_table_;
+    IdTable<FormId> form_table_;
 };
 
 }  // namespace relax

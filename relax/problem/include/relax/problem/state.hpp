@@ -14,7 +14,7 @@
 
 namespace relax {
 
-using StateId = std::uint32_t;
+using StateId = Id<struct StateTag>;
 
 // Facts of a state as bits.
 using StateBits = std::vector<std::uint64_t>;
@@ -57,7 +57,7 @@ private:
     std::size_t word_count_;
     RunArena<std::uint64_t> words_;
     SegmentedArray<const std::uint64_t*> starts_;
-    IdTable table_;
+    IdTable<StateId> table_;
 };
 
 }  // namespace relax

@@ -2,6 +2,7 @@
 #define RELAX_PROGRESSION_RELEVANT_FACTS_HPP
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,7 @@ public:
 
 private:
     using MaskId = StateId;
-    static constexpr MaskId kUnknown = static_cast<MaskId>(-1);
+    static constexpr MaskId kUnknown{std::numeric_limits<std::uint32_t>::max()};
 
     MaskId find(TaskNetworks& networks, NetworkId network);
     MaskId find_in_chain(TaskNetworks& networks, NetworkId network);

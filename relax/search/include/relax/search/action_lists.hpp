@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "relax/base/id_table.hpp"
+#include "relax/base/ids.hpp"
 #include "relax/base/segmented_array.hpp"
 
 namespace relax {
@@ -12,13 +13,13 @@ namespace relax {
 // An action as plans show it: all cases of an action have the same name.
 using ActionName = std::uint32_t;
 
-using ActionListId = std::uint32_t;
+using ActionListId = Id<struct ActionListTag>;
 
 // Lists of actions, each kept once: equal lists have equal numbers. A list is its last action and the number of the
 // list of all before it.
 class ActionLists {
 public:
-    static constexpr ActionListId kEmpty = 0;
+    static constexpr ActionListId kEmpty{0};
 
     ActionLists() { cells_.push_back({0, kEmpty}); }
 
@@ -36,7 +37,7 @@ private:
     ActionListId intern(ActionName last, ActionListId before);
 
     SegmentedArray<Cell> cells_;
-    IdTable table_;
+    IdTable<ActionListId> table_;
     std::vector<ActionName> later_;
 };
 

@@ -14,14 +14,14 @@ namespace relax {
 // The open list, of nodes or labels: a heap by priority (f, say). Ties: low h first; then, so that recursion without a
 // cost does not go on without end, small networks, by powers of two of their sizes; then the newest. An entry is not
 // removed when its node improves: whoever pops one compares it with the node.
-template <typename Id>
+template <typename Element>
 class OpenList {
 public:
     struct Entry {
         Cost priority;
         Cost h;
         std::uint32_t pending_tasks;
-        Id id;
+        Element id;
         std::uint64_t age;
     };
 
@@ -29,7 +29,7 @@ public:
     const Entry& top() const { return heap_.front(); }
     std::span<const Entry> entries() const { return heap_; }
 
-    void push(Id id, Cost priority, Cost h, std::uint32_t pending_tasks) {
+    void push(Element id, Cost priority, Cost h, std::uint32_t pending_tasks) {
         heap_.push_back({priority, h, pending_tasks, id, next_age_++});
         std::push_heap(heap_.begin(), heap_.end(), comes_later);
     }

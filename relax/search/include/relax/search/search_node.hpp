@@ -10,7 +10,7 @@
 
 namespace relax {
 
-using NodeId = std::uint32_t;
+using NodeId = Id<struct NodeTag>;
 
 // A state and a network, and the cheapest path to them that is known.
 struct SearchNode {

@@ -88,7 +88,7 @@ private:
     const TaskNetworks& networks_;
     NetworkBounds& bounds_;
     SegmentedArray<SearchNode> nodes_;
-    IdTable table_;
+    IdTable<NodeId> table_;
 };
 
 }  // namespace relax

@@ -64,7 +64,7 @@ public:
     TopPlansResult run();
 
 private:
-    using LabelId = std::uint32_t;
+    using LabelId = Id<struct LabelTag>;
 
     // A state and a network, and the labels that are kept.
     struct Node {
@@ -112,9 +112,9 @@ private:
     std::unique_ptr<Heuristic> heuristic_;
     ActionLists lists_;
     SegmentedArray<Node> nodes_;
-    IdTable node_table_;
+    IdTable<NodeId> node_table_;
     SegmentedArray<Label> labels_;
-    IdTable label_table_;
+    IdTable<LabelId> label_table_;
     OpenList<LabelId> open_;
     std::vector<LabelId> plans_;   // the cheapest that were found, the cheapest first
     bool has_pruned_ = false;      // there may be more plans than those ...
