@@ -37,7 +37,7 @@ RelaxedModel composition_model(const GroundProblem& problem, const Prices& price
         builder.add_action(action, action);
         for (OperatorId op = first; op < model.operator_count(); ++op) {
             model.task_operators.push(op);
-            model.operator_task.push_back(action);
+            model.operator_task.push_back(task_of(action));
             model.operator_subtasks.finish_row();
         }
         model.task_operators.finish_row();

@@ -95,7 +95,7 @@ void RelaxedModelBuilder::add_operator(std::vector<RelaxedFact> needed, std::vec
 void RelaxedModelBuilder::add_action(ActionId action, OwnerId owner) {
     std::vector<RelaxedFact> needed;
     if (model.is_decomposition()) {
-        needed.push_back(model.may_start(action));
+        needed.push_back(model.may_start(task_of(action)));
     }
     for (const FactId fact : problem_.preconditions[action]) {
         needed.push_back(model.holds(fact));
@@ -104,7 +104,7 @@ void RelaxedModelBuilder::add_action(ActionId action, OwnerId owner) {
         needed.push_back(complement_of_[fact]);
     }
     settle_costs(action, needed);
-    std::vector<RelaxedFact> always{model.reached(action)};
+    std::vector<RelaxedFact> always{model.reached(task_of(action))};
     for (const EffectId effect : problem_.effects[action]) {
         std::vector<RelaxedFact> made;
         for (const FactId fact : problem_.effect_adds[effect]) {
@@ -136,7 +136,7 @@ void RelaxedModelBuilder::add_action(ActionId action, OwnerId owner) {
 void RelaxedModelBuilder::settle_costs(ActionId action, std::vector<RelaxedFact>& needed) {
     std::vector<RelaxedFact> asked_for;
     if (model.is_decomposition()) {
-        asked_for.push_back(model.may_start(action));
+        asked_for.push_back(model.may_start(task_of(action)));
     }
     for (const CostPartId part : problem_.cost_parts[action]) {
         if (model.owner_cost[part_owner(part)] == 0) {

@@ -4,7 +4,7 @@ namespace relax {
 
 const TaskProfile& TaskProfiles::of(TaskId task, Limits& limits) const {
     return profiles_[task].get(
-        [&] { return problem_.is_primitive(task) ? of_action(task) : of_compound(task, limits); });
+        [&] { return problem_.is_primitive(task) ? of_action(problem_.action_of(task)) : of_compound(task, limits); });
 }
 
 TaskProfile TaskProfiles::of_action(ActionId action) const {

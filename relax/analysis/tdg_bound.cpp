@@ -64,7 +64,7 @@ std::vector<Cost> tdg_bound(const GroundProblem& problem, std::span<const Cost> 
         }
     }
     for (const ActionId action : problem.actions()) {
-        offer(action, costs[action]);
+        offer(task_of(action), costs[action]);
     }
     while (!queue.empty()) {
         limits.stop_if_reached();

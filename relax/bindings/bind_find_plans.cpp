@@ -135,8 +135,8 @@ relax::SearchResult find_plans(const relax::PricedProblem& priced, const relax::
     return relax::search(priced, options, limits, statistics);
 }
 
-std::vector<relax::ActionId> executed_actions(const relax::SearchResult& result) {
-    std::vector<relax::ActionId> actions;
+std::vector<relax::TaskId> executed_actions(const relax::SearchResult& result) {
+    std::vector<relax::TaskId> actions;
     for (const std::uint32_t leaf : result.plan) {
         actions.push_back(result.decomposition[leaf].task);
     }

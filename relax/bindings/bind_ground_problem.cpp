@@ -37,7 +37,7 @@ auto row(const AnalysedProblem& problem, std::size_t index) {
     if (index >= rows.size()) {
         throw std::out_of_range("index out of range");
     }
-    const auto values = rows[index];
+    const auto values = rows[typename std::remove_cvref_t<decltype(rows)>::Row(index)];
     return std::vector(values.begin(), values.end());
 }
 

@@ -202,7 +202,7 @@ private:
             for (std::uint32_t one = 0; one < choice.case_count; ++one) {
                 problem_.method_task.push_back(*task_of_node_[choice.node]);
                 problem_.method_parts.share_out(problem_.part_schema.size());
-                problem_.method_subtasks.push(choice.first_case + one);
+                problem_.method_subtasks.push(TaskId(choice.first_case + one));
                 problem_.method_subtasks.finish_row();
                 problem_.method_positions.push({0, 0});
                 problem_.method_positions.finish_row();

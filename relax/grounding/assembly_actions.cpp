@@ -170,7 +170,7 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is
 void write_action(const RemainingCase& one, const std::vector<std::optional<FactId>>& number_of_fact,
                   GroundProblem& problem) {
     const auto number = [&](Literal literal) { return number_of_fact[fact_of(literal)]; };
-    const auto write = [&](const Conjunction& literals, Rows<FactId>& positive, Rows<FactId>& negative) {
+    const auto write = [&](const Conjunction& literals, auto& positive, auto& negative) {
         for (const Literal literal : literals) {
             if (const auto fact = number(literal)) {
                 (is_negated(literal) ? negative : positive).push(*fact);

@@ -90,7 +90,7 @@ private:
     void copy_actions() {
         for (const ActionId action : old_.actions()) {
             limits_.stop_if_reached();
-            if (!living_.is_alive(action)) {
+            if (!living_.is_alive(task_of(action))) {
                 continue;
             }
             number_of_task_[action] = static_cast<TaskId>(copy_.action_count());

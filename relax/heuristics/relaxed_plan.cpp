@@ -127,11 +127,11 @@ std::optional<Cost> RelaxedPlan::ff(const RelaxedTask& task) {
     }
     Cost once = 0;  // the least weight of the network's distinct tasks
     for (const RelaxedFact goal : goals_) {
-        once = add_bounds(once, least_weight_[goal - model_.reached(0)]);
+        once = add_bounds(once, least_weight_[goal - model_.reached(TaskId{0})]);
     }
     Cost all = 0;
     for (const RelaxedFact goal : task.goals()) {
-        all = add_bounds(all, least_weight_[goal - model_.reached(0)]);
+        all = add_bounds(all, least_weight_[goal - model_.reached(TaskId{0})]);
     }
     return std::max(add_bounds(extract_plan(task), all - once), all);
 }

@@ -114,13 +114,13 @@ FormId TotallyOrderedNetworks::form_of(TaskId first, FormId rest) {
     if (rest == kImpossible) {
         return kImpossible;
     }
-    if (!problem_.is_primitive(first) || !macros_->fits(first)) {
+    if (!problem_.is_primitive(first) || !macros_->fits(problem_.action_of(first))) {
         return intern_form(first, rest);
     }
     const auto tasks = static_cast<std::uint32_t>(problem_.task_count());
     const bool continues = rest != kEmptyForm && forms_[rest].first >= tasks;
-    const auto macro =
-        macros_->prepend(first, continues ? MacroId(forms_[rest].first - tasks) : MacroActions::kNothing);
+    const auto macro = macros_->prepend(problem_.action_of(first),
+                                        continues ? MacroId(forms_[rest].first - tasks) : MacroActions::kNothing);
     if (!macro) {
         return kImpossible;
     }

@@ -46,13 +46,13 @@ bool Ending::can_end(const OrderedTasks& network, MacroId last) {
     }
     const auto may_be_anything = [&](std::uint32_t index) {
         const TaskId task = network.tasks[index];
-        return !problem_.is_primitive(task) || !macros_.fits(task);
+        return !problem_.is_primitive(task) || !macros_.fits(problem_.action_of(task));
     };
     const std::size_t end = candidates_.size();
     bool is_possible = first == end || std::ranges::any_of(std::span(candidates_).subspan(first), may_be_anything);
     for (std::size_t at = first; at < end && !is_possible; ++at) {
         const std::uint32_t index = candidates_[at];
-        const auto longer = macros_.prepend(network.tasks[index], last);
+        const auto longer = macros_.prepend(problem_.action_of(network.tasks[index]), last);
         if (++steps_ > kMostSteps) {
             is_possible = true;
         } else if (longer) {

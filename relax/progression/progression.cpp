@@ -27,7 +27,9 @@ std::optional<ActionId> first_action(const AnalysedProblem& problem, MethodId me
         }
         first = ordering[at - 1].first;
     }
-    return !subtasks.empty() && problem.is_primitive(subtasks[first]) ? std::optional(subtasks[first]) : std::nullopt;
+    return !subtasks.empty() && problem.is_primitive(subtasks[first])
+               ? std::optional(problem.action_of(subtasks[first]))
+               : std::nullopt;
 }
 
 }  // namespace
@@ -87,7 +89,7 @@ void Progression::expand_when_due(StateId state, NetworkId network, std::vector<
     }
     for (const Occurrence& occurrence : unconstrained_) {
         if (problem_.is_primitive(occurrence.task)) {
-            if (transition_.is_applicable(occurrence.task, states_[state])) {
+            if (transition_.is_applicable(problem_.action_of(occurrence.task), states_[state])) {
                 successors.push_back(execute(state, network, occurrence));
             }
             continue;
@@ -125,7 +127,8 @@ bool Progression::execute_at_once(StateId state, NetworkId network, std::vector<
     networks_->unconstrained(network, unconstrained_);
     work_ += unconstrained_.size();
     for (const Occurrence& occurrence : unconstrained_) {
-        if (is_executed_at_once(occurrence.task) && transition_.is_applicable(occurrence.task, states_[state])) {
+        if (is_executed_at_once(occurrence.task) &&
+            transition_.is_applicable(problem_.action_of(occurrence.task), states_[state])) {
             successors.push_back(execute(state, network, occurrence));
             return true;
         }
@@ -170,7 +173,7 @@ void Progression::choose_actions(StateId state, NetworkId network) {
         }
     } else if (!compound_) {
         std::ranges::copy_if(unconstrained_, std::back_inserter(to_execute_), [&](const Occurrence& occurrence) {
-            return transition_.is_applicable(occurrence.task, states_[state]);
+            return transition_.is_applicable(problem_.action_of(occurrence.task), states_[state]);
         });
     }
 }
@@ -222,7 +225,7 @@ Successor Progression::decompose(StateId state, NetworkId network, const Occurre
 }
 
 Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {
-    const ActionId action = occurrence.task;
+    const ActionId action = problem_.action_of(occurrence.task);
     std::vector<CostPartId> due_parts;
     for (const CostPartId part : problem_.cost_parts[action]) {
         if (transition_.is_due(part, states_[state])) {

@@ -27,7 +27,7 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
             continue;
         }
         set_bit(is_open_, occurrence.index);
-        if (transition_.is_applicable(occurrence.task, state)) {
+        if (transition_.is_applicable(problem_.action_of(occurrence.task), state)) {
             set_bit(is_applicable_, occurrence.index);
         }
     }

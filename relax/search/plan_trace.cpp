@@ -44,7 +44,7 @@ void walk(const PricedProblem& priced, Progression& progression, std::span<const
             network = networks.decompose(network, step.occurrence, *step.method, &origins);
         } else {
             result.plan.push_back(here);
-            const TaskId action = result.decomposition[here].task;
+            const ActionId action = problem.action_of(result.decomposition[here].task);
             const std::size_t settled = result.due_parts.size();
             for (const CostPartId part : problem.cost_parts[action]) {
                 if (transition.is_due(part, state)) {

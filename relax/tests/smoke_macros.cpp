@@ -33,9 +33,9 @@ void add_action(relax::GroundProblem& problem, const Facts& needs, const Facts& 
     problem.action_schema.push_back(0);
 }
 
-relax::ActionId drive(std::uint32_t from, std::uint32_t to) { return from * kPlaces + to; }
-relax::ActionId load(std::uint32_t at) { return kPlaces * kPlaces + 2 * at; }
-relax::ActionId unload(std::uint32_t at) { return load(at) + 1; }
+relax::ActionId drive(std::uint32_t from, std::uint32_t to) { return relax::ActionId{from * kPlaces + to}; }
+relax::ActionId load(std::uint32_t at) { return relax::ActionId{kPlaces * kPlaces + 2 * at}; }
+relax::ActionId unload(std::uint32_t at) { return relax::ActionId{load(at) + 1}; }
 
 relax::GroundProblem make_problem() {
     relax::GroundProblem problem;

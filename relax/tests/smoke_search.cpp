@@ -23,7 +23,7 @@ std::vector<Index> ids_of(Numbers numbers) {
 
 class Builder {
 public:
-    relax::ActionId action(Numbers needs, Numbers adds, Numbers deletes) {
+    relax::TaskId action(Numbers needs, Numbers adds, Numbers deletes) {
         problem.preconditions.add_row(ids_of<relax::FactId>(needs));
         problem.negative_preconditions.finish_row();
         problem.effect_conditions.finish_row();
@@ -35,7 +35,7 @@ public:
         problem.action_arguments.finish_row();
         problem.action_cost_blocks.finish_row();
         problem.cost_parts.share_out(0);
-        return static_cast<relax::ActionId>(problem.action_schema.size() - 1);
+        return static_cast<relax::TaskId>(problem.action_schema.size() - 1);
     }
 
     void facts(std::uint32_t count) {
@@ -82,10 +82,10 @@ relax::GroundProblem make_problem(bool ordered) {
     const auto make = builder.action({}, {0}, {});
     const auto use = builder.action({0}, {1}, {0});
     const auto done = builder.action({1}, {}, {});
-    const relax::TaskId top = 3;
-    const relax::TaskId a = 4;
-    const relax::TaskId c = 5;
-    const relax::TaskId nothing = 6;
+    const relax::TaskId top{3};
+    const relax::TaskId a{4};
+    const relax::TaskId c{5};
+    const relax::TaskId nothing{6};
     builder.method(top, {a, c, nothing, a}, ordered);
     builder.method(a, {make}, true);
     builder.method(a, {make, a}, true);

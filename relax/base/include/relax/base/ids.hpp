@@ -60,14 +60,16 @@ auto all_ids(std::size_t count) {
 // Index spaces. Each is dense and starts at 0.
 using ObjectId = Id<struct ObjectTag>;
 using FactId = Id<struct FactTag>;
-using ActionId = std::uint32_t;
+using ActionId = Id<struct ActionTag>;
 using EffectId = Id<struct EffectTag>;
 using CostPartId = Id<struct CostPartTag>;
 using AlternativeId = Id<struct AlternativeTag>;  // of the condition of a cost part
 using MethodId = Id<struct MethodTag>;
 using PartId = Id<struct PartTag>;  // of a method
-// An action is the task of the same number; compound tasks follow the actions.
-using TaskId = std::uint32_t;
+// Of actions and compound tasks. An action is the task of the same number; compound tasks follow the actions.
+using TaskId = Id<struct TaskTag>;
+
+constexpr TaskId task_of(ActionId action) { return TaskId(std::uint32_t{action}); }
 
 static_assert(sizeof(FactId) == sizeof(std::uint32_t) && std::is_trivially_copyable_v<FactId>);
 

@@ -14,14 +14,16 @@
 
 namespace relax {
 
-// Rows of different lengths in two flat arrays (compressed sparse rows).
-template <typename Value>
+// Rows of different lengths in two flat arrays (compressed sparse rows). `Index`: what numbers the rows.
+template <typename Value, typename Index = std::size_t>
 class Rows {
 public:
+    using Row = Index;
+
     std::size_t size() const { return ends_.size(); }
     std::size_t bytes() const { return ends_.size() * sizeof(std::uint32_t) + values_.size() * sizeof(Value); }
 
-    std::span<const Value> operator[](std::size_t row) const {
+    std::span<const Value> operator[](Index row) const {
         assert(row < size());
         const std::size_t begin = row == 0 ? 0 : ends_[row - 1];
         return {values_.data() + begin, ends_[row] - begin};
@@ -38,7 +40,7 @@ public:
             begin += length;
         }
         rows.values_.resize(begin, Value{});
-        fill([&rows](std::size_t row, const Value& value) { rows.values_[rows.ends_[row]++] = value; });
+        fill([&rows](Index row, const Value& value) { rows.values_[rows.ends_[row]++] = value; });
         assert(rows.ends_.size() == 0 || rows.ends_[rows.size() - 1] == begin);
         return rows;
     }

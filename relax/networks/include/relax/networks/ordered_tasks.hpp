@@ -18,7 +18,7 @@ struct OrderedTasks {
     std::vector<std::uint64_t> predecessors;  // rows, one after the other
 
     void reset(std::size_t count) {
-        tasks.assign(count, 0);
+        tasks.assign(count, TaskId{});
         words = words_for(count);
         predecessors.assign(count * words, 0);
     }

@@ -10,6 +10,7 @@
 // The cost of an action is the sum of independent parts: those that are always due, and its *cost parts*, each of which
 // is due, once, where a condition holds in the state before the action. Risk costs of independent parts add up.
 
+#include <cassert>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -20,33 +21,35 @@
 namespace relax {
 
 struct GroundProblem {
+    // Rows of facts are sorted and have no repetitions.
+    //
     // By FactId. Only facts that can change and that something reads or that the initial state holds.
     std::vector<std::uint32_t> fact_predicate;
-    Rows<ObjectId> fact_arguments;
+    Rows<ObjectId, FactId> fact_arguments;
 
     // By ActionId.
-    Rows<FactId> preconditions;
-    Rows<FactId> negative_preconditions;
+    Rows<FactId, ActionId> preconditions;
+    Rows<FactId, ActionId> negative_preconditions;
     Shares<ActionId, EffectId> effects;
     std::vector<std::uint32_t> action_schema;
-    Rows<ObjectId> action_arguments;
+    Rows<ObjectId, ActionId> action_arguments;
     // Blocks of the cost with a condition or variables that are due wherever the action can be executed: records of the
     // block's number, the number of its variables, their objects.
-    Rows<std::uint32_t> action_cost_blocks;
+    Rows<std::uint32_t, ActionId> action_cost_blocks;
     Shares<ActionId, CostPartId> cost_parts;
 
     // By CostPartId. The condition is that one of its alternatives holds.
-    Rows<std::uint32_t> cost_part_blocks;  // what is due then, as in `action_cost_blocks`
+    Rows<std::uint32_t, CostPartId> cost_part_blocks;  // what is due then, as in `action_cost_blocks`
     Shares<CostPartId, AlternativeId> cost_alternatives;
     // By AlternativeId: all of these facts hold, none of those. Never empty, both of them.
-    Rows<FactId> cost_conditions;
-    Rows<FactId> cost_negative_conditions;
+    Rows<FactId, AlternativeId> cost_conditions;
+    Rows<FactId, AlternativeId> cost_negative_conditions;
 
     // By EffectId. Conditions are read in the state before the action; adding wins over deleting, also across effects.
-    Rows<FactId> effect_conditions;
-    Rows<FactId> effect_negative_conditions;
-    Rows<FactId> effect_adds;
-    Rows<FactId> effect_deletes;
+    Rows<FactId, EffectId> effect_conditions;
+    Rows<FactId, EffectId> effect_negative_conditions;
+    Rows<FactId, EffectId> effect_adds;
+    Rows<FactId, EffectId> effect_deletes;
 
     // By compound task: index 0 is task number action_count().
     std::vector<std::uint32_t> compound_schema;  // as in LiftedSubtask::task: an action's number for a choice
@@ -58,23 +61,23 @@ struct GroundProblem {
     // Lifted methods that were applied at once, its own first, since the tasks that the others decompose have no other
     // method. A method of a choice has none.
     Shares<MethodId, PartId> method_parts;
-    Rows<TaskId> method_subtasks;
+    Rows<TaskId, MethodId> method_subtasks;
     // Of each subtask: the part that it belongs to, counted from the method's first, and its index in that lifted
     // method.
-    Rows<std::pair<std::uint32_t, std::uint32_t>> method_positions;
-    Rows<std::pair<std::uint32_t, std::uint32_t>>
-        method_ordering;  // indices into the subtasks; transitively closed, sorted
+    Rows<std::pair<std::uint32_t, std::uint32_t>, MethodId> method_positions;
+    // Pairs of indices into the subtasks; transitively closed, sorted.
+    Rows<std::pair<std::uint32_t, std::uint32_t>, MethodId> method_ordering;
 
     // By PartId: the lifted method; the part whose subtask it decomposes, counted from the method's first, and the
     // index of that subtask in the lifted method.
     std::vector<std::uint32_t> part_schema;
-    Rows<ObjectId> part_arguments;
+    Rows<ObjectId, PartId> part_arguments;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> part_origin;
 
     std::vector<FactId> initial_state;  // sorted
-    TaskId initial_task = 0;
-    bool solvable =
-        true;  // false: grounding proved that the initial task cannot be accomplished; the rest is then empty
+    TaskId initial_task;
+    // False: grounding proved that the initial task cannot be accomplished; the rest is then empty.
+    bool solvable = true;
 
     std::size_t fact_count() const { return fact_predicate.size(); }
     std::size_t action_count() const { return action_schema.size(); }
@@ -86,15 +89,28 @@ struct GroundProblem {
     auto actions() const { return all_ids<ActionId>(action_count()); }
     auto tasks() const { return all_ids<TaskId>(task_count()); }
     auto compounds() const {
-        return ids_between<TaskId>(static_cast<TaskId>(action_count()), static_cast<TaskId>(task_count()));
+        return ids_between<TaskId>(static_cast<std::uint32_t>(action_count()),
+                                   static_cast<std::uint32_t>(task_count()));
     }
     auto methods() const { return all_ids<MethodId>(method_count()); }
     // An effect that has no condition happens whenever its action is executed.
     bool is_unconditional(EffectId effect) const {
         return effect_conditions[effect].empty() && effect_negative_conditions[effect].empty();
     }
-    bool is_primitive(TaskId task) const { return task < action_count(); }
-    std::span<const MethodId> methods_of(TaskId task) const { return compound_methods[task - action_count()]; }
+    bool is_primitive(TaskId task) const {
+        assert(task < task_count());
+        return task < action_count();
+    }
+    // Of a primitive task.
+    ActionId action_of(TaskId task) const {
+        assert(is_primitive(task));
+        return ActionId(std::uint32_t{task});
+    }
+    // Of a compound task.
+    std::span<const MethodId> methods_of(TaskId task) const {
+        assert(!is_primitive(task));
+        return compound_methods[task - action_count()];
+    }
 };
 
 }  // namespace relax
