@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "relax/problem/state.hpp"
 
@@ -186,6 +187,7 @@ void Mutexes::affect(const GroundProblem& problem, EffectId effect) {
 
 // The literal may hold with all that may hold after the action, but for its own negation.
 void Mutexes::put_together(Index index) {
+    assert(index < fact_of_.size() && has_bit(after_, index));
     if (!has_bit(reached_, index)) {
         set_bit(reached_, index);
         reached_tick_ = tick_;

@@ -9,25 +9,6 @@ namespace {
 
 // Turn "row -> values" round: for each value the rows that hold it.
 template <typename Value>
-Rows<std::uint32_t> invert(const Rows<Value>& rows, std::size_t value_count, Limits& limits) {
-    std::vector<std::uint32_t> counts(value_count, 0);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        limits.stop_if_reached();
-        for (const Value value : rows[row]) {
-            ++counts[value];
-        }
-    }
-    return Rows<std::uint32_t>::filled(counts, [&](const auto& put) {
-        for (std::size_t row = 0; row < rows.size(); ++row) {
-            limits.stop_if_reached();
-            for (const Value value : rows[row]) {
-                put(value, static_cast<std::uint32_t>(row));
-            }
-        }
-    });
-}
-
-template <typename Value>
 void append(std::vector<Value>& values, std::span<const Value> more) {
     values.insert(values.end(), more.begin(), more.end());
 }
@@ -188,11 +169,7 @@ void RelaxedModelBuilder::add_failures(AlternativeId alternative, const std::vec
 RelaxedModel RelaxedModelBuilder::finish(Limits& limits) {
     model.precondition_of = invert(model.preconditions, fact_count_, limits);
     model.achievers = invert(model.adds, fact_count_, limits);
-    std::vector<std::uint32_t> counts(model.owner_cost.size(), 0);
-    for (const OwnerId owner : model.owner) {
-        counts[owner] += owner == free_owner() ? 0 : 1;
-    }
-    model.owner_operators = Rows<OperatorId>::filled(counts, [&](const auto& put) {
+    model.owner_operators = Rows<OperatorId>::filled(model.owner_cost.size(), [&](const auto& put) {
         for (OperatorId op = 0; op < model.owner.size(); ++op) {
             limits.stop_if_reached();
             if (model.owner[op] != free_owner()) {

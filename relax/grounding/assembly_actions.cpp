@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 
 #include "assembly.hpp"
 
@@ -6,7 +7,10 @@ namespace relax::grounding {
 
 namespace {
 
-bool contains(const Conjunction& sorted, Literal literal) { return std::ranges::binary_search(sorted, literal); }
+bool contains(const Conjunction& sorted, Literal literal) {
+    assert(std::ranges::is_sorted(sorted));
+    return std::ranges::binary_search(sorted, literal);
+}
 
 // The literals of a condition that are not always true.
 Conjunction without_constants(const Remains& remains, std::span<const Literal> condition) {
@@ -171,6 +175,7 @@ void write_action(const RemainingCase& one, const std::vector<std::optional<Fact
                   GroundProblem& problem) {
     const auto number = [&](Literal literal) { return number_of_fact[fact_of(literal)]; };
     const auto write = [&](const Conjunction& literals, auto& positive, auto& negative) {
+        assert(std::ranges::is_sorted(literals));
         for (const Literal literal : literals) {
             if (const auto fact = number(literal)) {
                 (is_negated(literal) ? negative : positive).push(*fact);

@@ -1,6 +1,7 @@
 #include "composition.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 
 #include "relax/base/bits.hpp"
@@ -179,6 +180,10 @@ ComposedNetwork Composition::compose(MethodInstanceId method) const {
     ComposedNetwork network;
     append(method, 0, 0, network);
     std::ranges::sort(network.ordering);
+    assert(std::ranges::all_of(network.ordering, [&](const auto& pair) {
+        return pair.first != pair.second && pair.first < network.subtasks.size() &&
+               pair.second < network.subtasks.size();
+    }));
     return network;
 }
 

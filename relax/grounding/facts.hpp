@@ -1,6 +1,7 @@
 #ifndef RELAX_GROUNDING_FACTS_HPP
 #define RELAX_GROUNDING_FACTS_HPP
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,6 +18,7 @@ namespace relax::grounding {
 using Bindings = std::vector<ObjectId>;
 
 inline ObjectId object_of(Term term, std::span<const ObjectId> bindings) {
+    assert(term < static_cast<std::int64_t>(bindings.size()));
     return term >= 0 ? bindings[static_cast<std::size_t>(term)] : static_cast<ObjectId>(~term);
 }
 
@@ -26,7 +28,10 @@ inline ObjectId object_of(Term term, std::span<const ObjectId> bindings) {
 struct Knowledge {
     explicit Knowledge(const LiftedProblem& lifted);
 
-    RelationId task_relation(std::uint32_t task) const { return problem.predicate_count + task; }
+    RelationId task_relation(std::uint32_t task) const {
+        assert(task < task_count());
+        return problem.predicate_count + task;
+    }
     bool is_action(std::uint32_t task) const { return task < problem.actions.size(); }
     const std::vector<std::uint32_t>& task_parameters(std::uint32_t task) const {
         return is_action(task) ? problem.actions[task].parameters

@@ -1,6 +1,7 @@
 #include "literals.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 #include "truth.hpp"
@@ -106,6 +107,7 @@ Expander::Expander(const Knowledge& knowledge, Limits& limits) : knowledge_(know
 
 std::optional<ReachedFactId> Expander::fact(std::uint32_t predicate, const std::vector<Term>& terms,
                                             const Bindings& bindings) const {
+    assert(predicate + 1 < begin_.size());
     if (begin_[predicate] == begin_[predicate + 1]) {
         return std::nullopt;
     }
@@ -124,6 +126,7 @@ Disjunction Expander::expand_atom(const Formula& atom, bool negated, const Bindi
     for (const Term term : atom.terms) {
         objects.push_back(object_of(term, bindings));
     }
+    assert(atom.kind == FormulaKind::Atom);
     const std::uint32_t predicate = atom.symbol;
     const auto tuple = knowledge_.relations[predicate].find(objects);
     if (!tuple) {

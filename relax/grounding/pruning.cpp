@@ -1,7 +1,6 @@
 #include "pruning.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace relax::grounding {
 
@@ -13,22 +12,13 @@ namespace {
 class LiteralReachability {
 public:
     LiteralReachability(const Cases& cases, const std::vector<bool>& is_initially_true, Limits& limits)
-        : cases_(cases), is_initially_true_(is_initially_true), begin_(2 * is_initially_true.size() + 1, 0) {
-        for (std::uint32_t number = 0; number < count(); ++number) {
-            limits.stop_if_reached();
-            for (const Literal literal : condition(number)) {
-                ++begin_[literal + 1];
+        : cases_(cases), is_initially_true_(is_initially_true) {
+        watchers_ = Rows<std::uint32_t, Literal>::filled(2 * is_initially_true.size(), [&](auto put) {
+            for (std::uint32_t number = 0; number < count(); ++number) {
+                limits.stop_if_reached();
+                std::ranges::for_each(condition(number), [&](Literal literal) { put(literal, number); });
             }
-        }
-        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        watchers_.resize(begin_.back());
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
-        for (std::uint32_t number = 0; number < count(); ++number) {
-            limits.stop_if_reached();
-            for (const Literal literal : condition(number)) {
-                watchers_[next[literal]++] = number;
-            }
-        }
+        });
     }
 
     // Returns by literal whether it is reached by the living cases and effects;
@@ -53,9 +43,9 @@ public:
             limits.stop_if_reached();
             const Literal literal = pending_.back();
             pending_.pop_back();
-            for (std::uint32_t at = begin_[literal]; at < begin_[literal + 1]; ++at) {
+            for (const std::uint32_t watcher : watchers_[literal]) {
                 limits.stop_if_reached();
-                meet(watchers_[at]);
+                meet(watcher);
             }
         }
         return is_reached_;
@@ -105,11 +95,10 @@ private:
 
     const Cases& cases_;
     const std::vector<bool>& is_initially_true_;
-    std::vector<std::uint32_t> begin_;     // by literal, into watchers_
-    std::vector<std::uint32_t> watchers_;  // conditions
-    std::vector<bool> is_reached_;         // by literal
-    std::vector<bool> is_owner_reached_;   // by action node
-    std::vector<std::uint32_t> unmet_;     // by condition
+    Rows<std::uint32_t, Literal> watchers_;  // conditions that have it
+    std::vector<bool> is_reached_;           // by literal
+    std::vector<bool> is_owner_reached_;     // by action node
+    std::vector<std::uint32_t> unmet_;       // by condition
     std::vector<Literal> pending_;
 };
 

@@ -1,33 +1,24 @@
 #include "relation.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace relax::grounding {
 
-namespace {
-
-std::uint64_t hash_of(std::span<const ObjectId> values) {
-    std::uint64_t hash = values.size();
-    for (const ObjectId value : values) {
-        hash = combine(hash, value);
-    }
-    return hash;
-}
-
-}  // namespace
-
 std::optional<TupleId> Relation::find(std::span<const ObjectId> tuple) const {
-    return table_.find(hash_of(tuple), [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); });
+    assert(tuple.size() == arity_);
+    return table_.find(hash_values(tuple), [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); });
 }
 
 TupleId Relation::add(std::span<const ObjectId> tuple) {
-    const std::uint64_t hash = hash_of(tuple);
+    assert(tuple.size() == arity_);
+    const std::uint64_t hash = hash_values(tuple);
     const auto equal = [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); };
     if (const auto known = table_.find(hash, equal)) {
         return *known;
     }
     values_.append(tuple.begin(), tuple.end());
-    table_.add(hash, size_, [this](TupleId other) { return hash_of((*this)[other]); });
+    table_.add(hash, size_, [this](TupleId other) { return hash_values((*this)[other]); });
     const TupleId fresh = size_++;
     for (Index& index : indexes_) {
         if (index.is_complete) {
@@ -46,6 +37,7 @@ IndexId Relation::complete_index_on(const std::vector<std::uint32_t>& positions,
 }
 
 IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, bool is_complete, Limits& limits) const {
+    assert(std::ranges::is_sorted(positions) && (positions.empty() || positions.back() < arity_));
     const auto known = std::ranges::find_if(
         indexes_, [&](const Index& index) { return index.is_complete == is_complete && index.positions == positions; });
     const auto id = static_cast<IndexId>(known - indexes_.begin());
@@ -63,6 +55,7 @@ IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, bool is_
 }
 
 void Relation::show_next() {
+    assert(visible_ < size_);
     for (Index& index : indexes_) {
         if (!index.is_complete) {
             insert(index, visible_);
@@ -79,6 +72,7 @@ void Relation::show_all(Limits& limits) {
 }
 
 void Relation::insert(Index& index, TupleId tuple) const {
+    assert(index.older.size() == tuple);
     std::vector<ObjectId> key;
     const auto read_key = [&](TupleId of) {
         key.clear();
@@ -97,14 +91,15 @@ void Relation::insert(Index& index, TupleId tuple) const {
     index.older.push_back(tuple);
     index.newest.push_back(tuple);
     index.count.push_back(1);
-    index.table.add(hash_of(key), fresh, [&](std::uint32_t other) {
+    index.table.add(hash_values(key), fresh, [&](std::uint32_t other) {
         read_key(index.newest[other]);
-        return hash_of(key);
+        return hash_values(key);
     });
 }
 
 std::optional<std::uint32_t> Relation::find_key(const Index& index, std::span<const ObjectId> key) const {
-    return index.table.find(hash_of(key), [&](std::uint32_t other) {
+    assert(key.size() == index.positions.size());
+    return index.table.find(hash_values(key), [&](std::uint32_t other) {
         const std::span<const ObjectId> tuple = (*this)[index.newest[other]];
         for (std::size_t at = 0; at < key.size(); ++at) {
             if (tuple[index.positions[at]] != key[at]) {
@@ -121,6 +116,7 @@ std::optional<TupleId> Relation::first(IndexId index, std::span<const ObjectId> 
 }
 
 std::size_t Relation::count(IndexId index, std::span<const ObjectId> key) const {
+    assert(indexes_[index].is_complete);
     const auto found = find_key(indexes_[index], key);
     return found ? indexes_[index].count[*found] : 0;
 }
@@ -131,6 +127,7 @@ std::optional<TupleId> Relation::next(IndexId index, TupleId tuple) const {
 }
 
 std::size_t Relation::distinct_values(std::uint32_t position) {
+    assert(position < arity_);
     if (distinct_.empty() || counted_ != size_) {
         counted_ = size_;
         distinct_.clear();

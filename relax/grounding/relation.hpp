@@ -1,6 +1,7 @@
 #ifndef RELAX_GROUNDING_RELATION_HPP
 #define RELAX_GROUNDING_RELATION_HPP
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,7 +29,10 @@ public:
     std::size_t arity() const { return arity_; }
     TupleId size() const { return size_; }
     TupleId visible_count() const { return visible_; }
-    std::span<const ObjectId> operator[](TupleId tuple) const { return {values_.data() + tuple * arity_, arity_}; }
+    std::span<const ObjectId> operator[](TupleId tuple) const {
+        assert(tuple < size_);
+        return {values_.data() + tuple * arity_, arity_};
+    }
 
     std::optional<TupleId> find(std::span<const ObjectId> tuple) const;
     // Returns the tuple's number, whether it is new or not. `tuple` must not

@@ -1,7 +1,6 @@
 #include "task_graph.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "method_rule.hpp"
 
@@ -144,20 +143,9 @@ TaskGraph expand_methods(Knowledge& knowledge, const Demand& demand, Limits& lim
 
 void prune_bottom_up(TaskGraph& graph, Limits& limits) {
     const std::size_t nodes = graph.is_node_alive.size();
-    // By node: the living methods that use it, with repetitions.
-    std::vector<std::uint32_t> begin(nodes + 1, 0);
-    std::vector<std::uint32_t> missing(graph.method_task.size(), 0);
-    for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
-        if (graph.is_method_alive[method]) {
-            limits.stop_if_reached();
-            for (const NodeId subtask : graph.method_subtasks[method]) {
-                ++begin[subtask + 1];
-            }
-        }
-    }
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<MethodInstanceId> users(begin.back());
-    std::vector<std::uint32_t> next = begin;
+    const auto users = invert(graph.method_subtasks, nodes, limits,
+                              [&](MethodInstanceId method) { return bool{graph.is_method_alive[method]}; });
+    std::vector<std::size_t> missing(graph.method_task.size(), 0);
     std::vector<bool> is_reached(nodes, false);
     std::vector<NodeId> pending;
     const auto reach = [&](NodeId node) {
@@ -169,10 +157,7 @@ void prune_bottom_up(TaskGraph& graph, Limits& limits) {
     for (MethodInstanceId method = 0; method < graph.method_task.size(); ++method) {
         if (graph.is_method_alive[method]) {
             limits.stop_if_reached();
-            for (const NodeId subtask : graph.method_subtasks[method]) {
-                users[next[subtask]++] = method;
-                ++missing[method];
-            }
+            missing[method] = graph.method_subtasks[method].size();
             if (missing[method] == 0) {
                 reach(graph.method_task[method]);
             }
@@ -185,9 +170,9 @@ void prune_bottom_up(TaskGraph& graph, Limits& limits) {
         limits.stop_if_reached();
         const NodeId node = pending.back();
         pending.pop_back();
-        for (std::uint32_t at = begin[node]; at < begin[node + 1]; ++at) {
-            if (--missing[users[at]] == 0) {
-                reach(graph.method_task[users[at]]);
+        for (const MethodInstanceId method : users[node]) {
+            if (--missing[method] == 0) {
+                reach(graph.method_task[method]);
             }
         }
     }

@@ -26,7 +26,7 @@ struct TaskGraph {
     std::vector<std::uint32_t> method_schema;  // by MethodInstanceId
     std::vector<NodeId> method_task;
     Rows<ObjectId> method_arguments;
-    Rows<NodeId> method_subtasks;
+    Rows<NodeId, MethodInstanceId> method_subtasks;
     // By compound node less action_node_count: its methods, which are numbered
     // one after the other.
     std::vector<std::pair<MethodInstanceId, MethodInstanceId>> methods_of;

@@ -1,13 +1,17 @@
 #include "relax/networks/macro_actions.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace relax {
 
 namespace {
 
-bool has(const std::vector<Literal>& sorted, Literal literal) { return std::ranges::binary_search(sorted, literal); }
+bool has(const std::vector<Literal>& sorted, Literal literal) {
+    assert(std::ranges::is_sorted(sorted));
+    return std::ranges::binary_search(sorted, literal);
+}
 
 void put(std::vector<Literal>& sorted, Literal literal) {
     const auto at = std::ranges::lower_bound(sorted, literal);
@@ -36,6 +40,7 @@ bool MacroActions::fits(ActionId action) const {
 }
 
 std::optional<MacroId> MacroActions::prepend(ActionId action, MacroId rest) {
+    assert(rest < macros_.size());
     const auto [entry, is_new] = composed_.try_emplace((std::uint64_t{action} << 32) | rest, kImpossible);
     if (is_new) {
         entry->second = compose(action, rest);

@@ -1,6 +1,7 @@
 #include "relax/networks/network_components.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "relax/base/cost.hpp"
 
@@ -10,6 +11,7 @@ ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std
     const std::size_t count = draft.tasks.size();
     const std::size_t words = words_for(count);
     const auto order = canonical_.of(draft);
+    assert(count > 0 && order.size() == count);
     place_.resize(count);
     for (std::size_t index = 0; index < count; ++index) {
         place_[order[index]] = static_cast<std::uint32_t>(index);

@@ -1,6 +1,7 @@
 #include "relax/networks/partially_ordered_networks.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -68,6 +69,7 @@ NetworkId PartiallyOrderedNetworks::decompose(NetworkId network, std::uint32_t i
 
 NetworkId PartiallyOrderedNetworks::step(NetworkId network, std::uint32_t index, MethodId method,
                                          std::vector<Origin>* origins) {
+    assert(index < size(network));
     const auto old = components(network);
     work_ += old.size();
     std::size_t changed = 0;
@@ -117,6 +119,8 @@ std::span<const ComponentId> PartiallyOrderedNetworks::change(ComponentId compon
 void PartiallyOrderedNetworks::replace(ComponentId component, std::uint32_t index, MethodId method) {
     const auto subtasks = method == kExecuted ? std::span<const TaskId>{} : problem_.method_subtasks[method];
     const std::uint32_t size = components_.size(component);
+    assert(index < size);
+    assert(method == kExecuted || components_.task(component, index) == problem_.method_task[method]);
     const std::uint32_t kept = size - 1;
     draft_.reset(kept + subtasks.size());
     draft_origins_.clear();
@@ -204,6 +208,7 @@ void PartiallyOrderedNetworks::trace(NetworkId network, std::size_t changed, std
                                      MethodId method, std::vector<Origin>& origins) {
     replace(components(network)[changed], index, method);
     split(parts_);
+    assert(parts_.size() == change(components(network)[changed], index, method).size());
     for (Part& part : parts_) {
         for (Origin& origin : part.origins) {
             origin.index += origin.is_subtask ? 0 : begin;
@@ -226,6 +231,7 @@ void PartiallyOrderedNetworks::trace(NetworkId network, std::size_t changed, std
     for (const Part& part : parts_) {
         origins.insert(origins.end(), part.origins.begin(), part.origins.end());
     }
+    assert(old.size() > 0 && here == size(network));
 }
 
 Cost PartiallyOrderedNetworks::bound(NetworkId network, std::span<const Cost> task_bounds,
@@ -242,6 +248,7 @@ Cost PartiallyOrderedNetworks::bound(NetworkId network, std::span<const Cost> ta
 }
 
 NetworkId PartiallyOrderedNetworks::intern(std::span<const ComponentId> list) {
+    assert(std::ranges::is_sorted(list));
     const std::uint64_t hash = hash_values(list);
     const auto known = table_.find(hash, [&](NetworkId id) { return std::ranges::equal(list, components(id)); });
     if (known) {

@@ -1,5 +1,6 @@
 #include "relax/networks/totally_ordered_networks.hpp"
 
+#include <cassert>
 #include <utility>
 
 #include "relax/base/cost.hpp"
@@ -56,6 +57,7 @@ void TotallyOrderedNetworks::ordered_tasks(NetworkId network, OrderedTasks& orde
 }
 
 NetworkId TotallyOrderedNetworks::progress(NetworkId network, std::uint32_t /*index*/, std::vector<Origin>* origins) {
+    assert(network != kEmpty);
     const Cell& cell = cells_[network];
     if (origins != nullptr) {
         origins->clear();
@@ -69,12 +71,14 @@ NetworkId TotallyOrderedNetworks::progress(NetworkId network, std::uint32_t /*in
 NetworkId TotallyOrderedNetworks::decompose(NetworkId network, std::uint32_t index, MethodId method,
                                             std::vector<Origin>* origins) {
     const std::uint32_t size = cells_[network].size;
+    assert(index < size);
     earlier_.clear();
     for (; earlier_.size() < index; network = cells_[network].rest) {
         earlier_.push_back(cells_[network].first);
     }
     const auto sequence = sequences_[method];
     const auto subtasks = problem_.method_subtasks[method];
+    assert(cells_[network].first == problem_.method_task[method]);
     NetworkId result = cells_[network].rest;
     for (std::size_t place = sequence.size(); place-- > 0;) {
         result = intern(subtasks[sequence[place]], result);
@@ -111,6 +115,7 @@ NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
 }
 
 FormId TotallyOrderedNetworks::form_of(TaskId first, FormId rest) {
+    assert(macros_);
     if (rest == kImpossible) {
         return kImpossible;
     }

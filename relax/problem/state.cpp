@@ -1,6 +1,7 @@
 #include "relax/problem/state.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace relax {
 
@@ -24,11 +25,14 @@ StateBits StateTransition::initial_state() const {
 }
 
 bool StateTransition::is_applicable(ActionId action, std::span<const std::uint64_t> state) const {
+    assert(state.size() == word_count());
     return meets(state, problem_.preconditions[action], problem_.negative_preconditions[action]);
 }
 
 void StateTransition::apply(ActionId action, std::span<const std::uint64_t> state,
                             std::span<std::uint64_t> next) const {
+    assert(is_applicable(action, state));
+    assert(next.size() == state.size() && next.data() != state.data());
     std::copy(state.begin(), state.end(), next.begin());
     for (const EffectId effect : problem_.effects[action]) {
         if (fires(effect, state)) {
@@ -57,6 +61,7 @@ bool StateTransition::fires(EffectId effect, std::span<const std::uint64_t> stat
 }
 
 StateId StateRegistry::intern(std::span<const std::uint64_t> state) {
+    assert(state.size() == word_count_);
     const std::uint64_t hash = hash_values(state);
     const auto known =
         table_.find(hash, [&](StateId id) { return std::equal(state.begin(), state.end(), (*this)[id].begin()); });

@@ -1,6 +1,7 @@
 #include "relax/progression/progression.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -216,6 +217,7 @@ std::optional<Occurrence> Progression::compound_to_decompose() const {
 }
 
 Successor Progression::decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method) {
+    assert(problem_.method_task[method] == occurrence.task);
     const NetworkId next = networks_->decompose(network, occurrence.index, method);
     if (relevant_facts_) {
         std::ranges::copy(states_[state], next_.begin());

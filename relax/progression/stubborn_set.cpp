@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <iterator>
 #include <limits>
 
@@ -10,6 +11,7 @@ namespace relax {
 std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks& network,
                                                              std::span<const std::uint64_t> state,
                                                              std::span<const Occurrence> unconstrained) {
+    assert(state.size() == transition_.word_count());
     turn_round(network, successors_);
     work_ += network.tasks.size() + network.predecessors.size();
     occurring_.clear();
@@ -106,6 +108,7 @@ std::optional<std::uint32_t> StubbornSet::open_before(const OrderedTasks& networ
 }
 
 void StubbornSet::put(std::uint32_t index) {
+    assert(!has_bit(is_member_, index) && has_bit(is_open_, index));
     members_.push_back(index);
     set_bit(is_member_, index);
     for (std::size_t word = 0; word < is_after_.size(); ++word) {
@@ -120,6 +123,7 @@ bool StubbornSet::concerns(const TaskProfile& other, std::uint32_t member, std::
         // The particular precondition of (2): the first that is false.
         const auto open =
             std::ranges::find_if(action.preconditions, [state](Literal literal) { return !holds(state, literal); });
+        assert(open != action.preconditions.end());
         return other.makes.contains(*open);
     }
     return std::ranges::any_of(action.read_list,

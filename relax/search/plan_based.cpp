@@ -85,7 +85,7 @@ SearchResult PlanBased::run() {
 // Search until the best solution is as good as anything open, or nothing is open. Says why it stopped before that.
 std::optional<StopReason> PlanBased::search() {
     generate(NodeId{0}, progression_.initial_network(), {});  // 1 to 7
-    while (!open_.is_empty()) {                       // 8
+    while (!open_.is_empty()) {                               // 8
         if (const auto stop = limits_.check()) {
             return stop;
         }

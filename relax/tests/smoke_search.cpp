@@ -119,6 +119,13 @@ relax::FindPlansOptions best_first(std::vector<const relax::HeuristicInfo*> heur
     return options;
 }
 
+template <typename Options>
+Options with(const relax::HeuristicInfo& heuristic) {
+    Options options;
+    options.heuristic = &heuristic;
+    return options;
+}
+
 // What the planner does where nothing else is asked for.
 relax::PortfolioOptions by_turns() {
     std::vector<const relax::HeuristicInfo*> several;
@@ -195,13 +202,13 @@ int main() {
     for (const bool ordered : {true, false}) {
         for (const relax::HeuristicInfo& heuristic : relax::heuristics()) {
             const std::string_view name = heuristic.name;
-            ++(solve(ordered, name, relax::GreedyOptions{.heuristic = &heuristic}, false) ? passed : failed);
+            ++(solve(ordered, name, with<relax::GreedyOptions>(heuristic), false) ? passed : failed);
             if (heuristic.is_admissible) {
                 ++(solve(ordered, name, best_first({&heuristic}), true) ? passed : failed);
                 ++(solve(ordered, name, best_first({&heuristic}, 2.0), false) ? passed : failed);
             }
             if (!heuristic.has_model) {
-                ++(solve(ordered, name, relax::PlanBasedOptions{.heuristic = &heuristic}, true) ? passed : failed);
+                ++(solve(ordered, name, with<relax::PlanBasedOptions>(heuristic), true) ? passed : failed);
             }
         }
         ++(solve(ordered, "by turns", by_turns(), true) ? passed : failed);

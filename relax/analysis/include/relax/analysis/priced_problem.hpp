@@ -1,6 +1,7 @@
 #ifndef RELAX_ANALYSIS_PRICED_PROBLEM_HPP
 #define RELAX_ANALYSIS_PRICED_PROBLEM_HPP
 
+#include <cassert>
 #include <optional>
 #include <span>
 #include <utility>
@@ -22,7 +23,9 @@ class PricedProblem {
 public:
     // The problem must live longer.
     PricedProblem(const AnalysedProblem& problem_at_prices, Prices its_prices)
-        : problem(problem_at_prices), prices(std::move(its_prices)) {}
+        : problem(problem_at_prices), prices(std::move(its_prices)) {
+        assert(prices.actions.size() == problem.action_count() && prices.parts.size() == problem.cost_part_count());
+    }
 
     const AnalysedProblem& problem;
     const Prices prices;

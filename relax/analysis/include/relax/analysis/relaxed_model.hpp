@@ -33,12 +33,12 @@ struct RelaxedModel {
     static constexpr RelaxedFact kAlwaysTrue = 0;
 
     // By OperatorId.
-    Rows<RelaxedFact> preconditions;  // never empty
-    Rows<RelaxedFact> adds;
+    Rows<RelaxedFact, OperatorId> preconditions;  // never empty
+    Rows<RelaxedFact, OperatorId> adds;
     std::vector<OwnerId> owner;
     // By RelaxedFact.
-    Rows<OperatorId> precondition_of;
-    Rows<OperatorId> achievers;
+    Rows<OperatorId, RelaxedFact> precondition_of;
+    Rows<OperatorId, RelaxedFact> achievers;
     // By OwnerId.
     std::vector<Cost> owner_cost;
     Rows<OperatorId> owner_operators;
@@ -47,8 +47,8 @@ struct RelaxedModel {
 
     // Of the composition model alone. By TaskId: an action's operators, or a compound task's methods. By operator of a
     // method: its distinct subtasks.
-    Rows<OperatorId> task_operators;
-    Rows<TaskId> operator_subtasks;
+    Rows<OperatorId, TaskId> task_operators;
+    Rows<TaskId, OperatorId> operator_subtasks;
     std::vector<OperatorId> method_operator;  // by MethodId
     std::vector<TaskId> operator_task;        // by OperatorId: the action, or the task of the method
     RelaxedFact first_settled = 0;            // of the facts about cost parts, which come last

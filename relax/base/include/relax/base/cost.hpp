@@ -1,6 +1,8 @@
 #ifndef RELAX_BASE_COST_HPP
 #define RELAX_BASE_COST_HPP
 
+#include <cassert>
+
 #include "relax/base/ids.hpp"
 
 namespace relax {
@@ -14,6 +16,7 @@ inline constexpr Cost kMostCost = kInfinity - 1;
 
 // The sum of two costs, each at most `kInfinity`. It is monotone in both, so that a bound stays a bound.
 inline Cost add_bounds(Cost left, Cost right) {
+    assert(left <= kInfinity && right <= kInfinity);
     const Cost sum = left + right;
     if (sum < kMostCost) {
         return sum;

@@ -2,6 +2,7 @@
 #define RELAX_BASE_FLAT_ARRAY_HPP
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdlib>
 #include <iterator>
@@ -35,8 +36,14 @@ public:
 
     std::size_t size() const { return size_; }
     const Value* data() const { return data_; }
-    Value& operator[](std::size_t index) { return data_[index]; }
-    const Value& operator[](std::size_t index) const { return data_[index]; }
+    Value& operator[](std::size_t index) {
+        assert(index < size_);
+        return data_[index];
+    }
+    const Value& operator[](std::size_t index) const {
+        assert(index < size_);
+        return data_[index];
+    }
 
     void push_back(const Value& value) {
         const Value copy = value;  // which may stand in this array
@@ -79,6 +86,7 @@ private:
         }
         data_ = static_cast<Value*>(grown);
         capacity_ = capacity;
+        assert(size_ + count <= capacity_);
     }
 
     Value* data_ = nullptr;

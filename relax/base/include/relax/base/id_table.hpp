@@ -1,6 +1,7 @@
 #ifndef RELAX_BASE_ID_TABLE_HPP
 #define RELAX_BASE_ID_TABLE_HPP
 
+#include <bit>
 #include <cassert>
 #include <cstdint>
 #include <limits>
@@ -74,6 +75,7 @@ public:
 
     // Put an element in the place of another one with this hash.
     void replace(std::uint64_t hash, Index old, Index id) {
+        assert(id != kEmpty && !slots_.empty());
         std::size_t at = hash & mask();
         while (slots_[at].id != old) {
             assert(slots_[at].id != kEmpty);
@@ -87,12 +89,14 @@ private:
         Index id;
         std::uint32_t tag;
     };
-    static constexpr std::size_t kFirstSlots = 16;  // a power of two
+    static constexpr std::size_t kFirstSlots = 16;
+    static_assert(std::has_single_bit(kFirstSlots));
     static constexpr Index kEmpty{std::numeric_limits<std::uint32_t>::max()};
 
     std::size_t mask() const { return slots_.size() - 1; }
 
     void place(std::uint64_t hash, Slot slot) {
+        assert(count_ < slots_.size());
         std::size_t at = hash & mask();
         while (slots_[at].id != kEmpty) {
             at = (at + 1) & mask();

@@ -1,6 +1,7 @@
 #ifndef RELAX_BASE_ROWS_HPP
 #define RELAX_BASE_ROWS_HPP
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 
 #include "relax/base/flat_array.hpp"
 #include "relax/base/ids.hpp"
+#include "relax/base/limits.hpp"
 
 namespace relax {
 
@@ -29,10 +31,12 @@ public:
         return {values_.data() + begin, ends_[row] - begin};
     }
 
-    // Rows of the given lengths. `fill` gets a function that puts a value at the end of what a row has so far, and must
-    // call it as often as the lengths say.
-    template <typename Fill>
-    static Rows filled(const std::vector<std::uint32_t>& lengths, Fill fill) {
+    // So many rows. `visit` gets a function that puts a value at the end of what a row has so far. It is called twice,
+    // the first time only to count, and must put the same both times.
+    template <typename Visit>
+    static Rows filled(std::size_t count, Visit visit) {
+        std::vector<std::uint32_t> lengths(count, 0);
+        visit([&lengths](Index row, const Value&) { ++lengths[row]; });
         Rows rows;
         std::uint32_t begin = 0;
         for (const std::uint32_t length : lengths) {
@@ -40,7 +44,7 @@ public:
             begin += length;
         }
         rows.values_.resize(begin, Value{});
-        fill([&rows](Index row, const Value& value) { rows.values_[rows.ends_[row]++] = value; });
+        visit([&rows](Index row, const Value& value) { rows.values_[rows.ends_[row]++] = value; });
         assert(rows.ends_.size() == 0 || rows.ends_[rows.size() - 1] == begin);
         return rows;
     }
@@ -64,6 +68,24 @@ private:
     FlatArray<std::uint32_t> ends_;
     FlatArray<Value> values_;
 };
+
+// By value below `count`: the rows that have it, in order, once for each time that they have it. Rows for which
+// `keep(row)` does not hold are left out. Throws Stopped.
+template <typename Value, typename Index, typename Keep>
+Rows<Index, Value> invert(const Rows<Value, Index>& rows, std::size_t count, Limits& limits, Keep keep) {
+    return Rows<Index, Value>::filled(count, [&](auto put) {
+        for (std::uint32_t row = 0; row < rows.size(); ++row) {
+            limits.stop_if_reached();
+            if (keep(Index(row))) {
+                std::ranges::for_each(rows[Index(row)], [&](const Value& value) { put(value, Index(row)); });
+            }
+        }
+    });
+}
+template <typename Value, typename Index>
+Rows<Index, Value> invert(const Rows<Value, Index>& rows, std::size_t count, Limits& limits) {
+    return invert(rows, count, limits, [](Index) { return true; });
+}
 
 // Ids that are dealt out in order: each owner has the next few. Owners, too, are ids, and come in order.
 template <typename Owner, typename Member>

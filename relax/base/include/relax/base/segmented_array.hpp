@@ -1,9 +1,12 @@
 #ifndef RELAX_BASE_SEGMENTED_ARRAY_HPP
 #define RELAX_BASE_SEGMENTED_ARRAY_HPP
 
+#include <bit>
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace relax {
@@ -11,11 +14,19 @@ namespace relax {
 // An array that only grows, in segments of equal size: no element ever moves and growing never doubles the memory.
 template <typename Value, std::size_t SegmentSize = (std::size_t{1} << 14)>
 class SegmentedArray {
+    static_assert(std::has_single_bit(SegmentSize));  // so that finding an element takes no division
+
 public:
     std::size_t size() const { return size_; }
 
-    Value& operator[](std::size_t index) { return segments_[index / SegmentSize][index % SegmentSize]; }
-    const Value& operator[](std::size_t index) const { return segments_[index / SegmentSize][index % SegmentSize]; }
+    Value& operator[](std::size_t index) {
+        assert(index < size_);
+        return segments_[index / SegmentSize][index % SegmentSize];
+    }
+    const Value& operator[](std::size_t index) const {
+        assert(index < size_);
+        return segments_[index / SegmentSize][index % SegmentSize];
+    }
 
     void push_back(const Value& value) {
         if (size_ == segments_.size() * SegmentSize) {
@@ -32,6 +43,8 @@ private:
 // Runs of words of any length, each contiguous and never moved.
 template <typename Value, std::size_t SegmentSize = (std::size_t{1} << 16)>
 class RunArena {
+    static_assert(std::is_trivially_copyable_v<Value>);
+
 public:
     std::span<Value> allocate(std::size_t count) {
         if (count > SegmentSize / 4) {
@@ -44,6 +57,7 @@ public:
         }
         const std::span<Value> run{segments_.back().get() + used_, count};
         used_ += count;
+        assert(used_ <= SegmentSize);
         return run;
     }
 

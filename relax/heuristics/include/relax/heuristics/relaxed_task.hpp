@@ -72,7 +72,7 @@ private:
     };
     static constexpr std::uint32_t kEnd = static_cast<std::uint32_t>(-1);
 
-    std::span<const OperatorId> row(const Rows<OperatorId>& rows, RelaxedFact fact) const {
+    std::span<const OperatorId> row(const Rows<OperatorId, RelaxedFact>& rows, RelaxedFact fact) const {
         return fact < model_.fact_count() ? rows[fact] : std::span<const OperatorId>{};
     }
     bool is_of_model(OperatorId op) const { return op < model_.operator_count(); }

@@ -1,6 +1,7 @@
 #ifndef RELAX_NETWORKS_NETWORK_COMPONENTS_HPP
 #define RELAX_NETWORKS_NETWORK_COMPONENTS_HPP
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,11 +37,13 @@ public:
     Cost bound(ComponentId id, std::span<const Cost> task_bounds) const;
     TaskId task(ComponentId id, std::uint32_t index) const {
         const Record& record = records_[id];
+        assert(index < record.size);
         const std::uint64_t* tasks = record.words + record.size * words_for(record.size);
         return static_cast<TaskId>(tasks[index / 2] >> (index % 2 * 32));
     }
     // The predecessors of a task, as bits.
     std::span<const std::uint64_t> row(ComponentId id, std::uint32_t index) const {
+        assert(index < records_[id].size);
         const std::size_t words = words_for(records_[id].size);
         return {records_[id].words + index * words, words};
     }

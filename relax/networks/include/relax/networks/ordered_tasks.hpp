@@ -1,6 +1,7 @@
 #ifndef RELAX_NETWORKS_ORDERED_TASKS_HPP
 #define RELAX_NETWORKS_ORDERED_TASKS_HPP
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,8 +23,12 @@ struct OrderedTasks {
         words = words_for(count);
         predecessors.assign(count * words, 0);
     }
-    std::span<const std::uint64_t> row(std::size_t index) const { return {predecessors.data() + index * words, words}; }
+    std::span<const std::uint64_t> row(std::size_t index) const {
+        assert(index < tasks.size());
+        return {predecessors.data() + index * words, words};
+    }
     void put_before(std::size_t earlier, std::size_t later) {
+        assert(earlier < tasks.size() && later < tasks.size() && earlier != later);
         set_bit(std::span(predecessors).subspan(later * words, words), earlier);
     }
     bool is_before(std::size_t earlier, std::size_t later) const { return has_bit(row(later), earlier); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,7 +27,10 @@ public:
     };
 
     bool is_empty() const { return heap_.empty(); }
-    const Entry& top() const { return heap_.front(); }
+    const Entry& top() const {
+        assert(!is_empty());
+        return heap_.front();
+    }
     std::span<const Entry> entries() const { return heap_; }
 
     void push(Element id, Cost priority, Cost h, std::uint32_t pending_tasks) {
@@ -35,6 +39,7 @@ public:
     }
 
     Entry pop() {
+        assert(!is_empty());
         std::pop_heap(heap_.begin(), heap_.end(), comes_later);
         const Entry entry = heap_.back();
         heap_.pop_back();

@@ -38,6 +38,7 @@ struct SearchNode {
     }
     SearchStep step() const { return {occurrence, method == kExecuted ? std::nullopt : std::optional(method)}; }
 };
+static_assert(sizeof(SearchNode) == 40);
 
 }  // namespace relax
 

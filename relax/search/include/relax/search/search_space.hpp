@@ -1,6 +1,7 @@
 #ifndef RELAX_SEARCH_SEARCH_SPACE_HPP
 #define RELAX_SEARCH_SEARCH_SPACE_HPP
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,6 +43,7 @@ public:
 
     // Add a node for a state and a network that are not yet there.
     NodeId add(StateId state, NetworkId network) {
+        assert(!find(state, network));
         const auto id = static_cast<NodeId>(nodes_.size());
         nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false, false, false});
         table_.add(hash(state, networks_.form(network)), id, [this](NodeId other) { return hash(other); });

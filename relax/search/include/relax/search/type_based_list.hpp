@@ -1,6 +1,7 @@
 #ifndef RELAX_SEARCH_TYPE_BASED_LIST_HPP
 #define RELAX_SEARCH_TYPE_BASED_LIST_HPP
 
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -27,6 +28,7 @@ public:
     }
 
     NodeId pop() {
+        assert(!is_empty());
         const std::size_t chosen = random(buckets_.size());
         std::vector<NodeId>& nodes = buckets_[chosen].nodes;
         std::swap(nodes[random(nodes.size())], nodes.back());
