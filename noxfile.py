@@ -129,6 +129,17 @@ def precision(session: nox.Session) -> None:
     session.run("pytest", *thorough, "tests/differential/test_optimal_is_optimal.py", *session.posargs)
 
 
+@nox.session(venv_backend="virtualenv")
+def mutation(session: nox.Session) -> None:
+    """Break the conditions on which optimality hangs, one at a time, and see whether the tests notice (half an hour).
+
+    It has an environment of its own, without the package: the tests run a copy of it. Arguments are parts of names.
+    """
+    install(session, "build", "test")
+    session.install(*PROJECT["project"]["dependencies"])
+    session.run("python", "-m", "tests.mutation.run", *session.posargs)
+
+
 @nox.session(python=["3.11", "3.12"])
 def package(session: nox.Session) -> None:
     """Build and check source distribution and wheel, install each in an empty environment, and try it there.

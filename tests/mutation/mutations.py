@@ -1,0 +1,208 @@
+"""Conditions on which optimality hangs, and how to break each: data for `tests.mutation.run`.
+
+A text that stands once in a file is replaced by another. Where the code changes, so does the text here; a condition
+that is no longer there needs another one in its place.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+BRUTE_FORCE = "tests/differential/test_core_against_brute_force.py"
+UNORDERED = "tests/differential/test_unordered_actions.py"
+TOTAL = f"{BRUTE_FORCE}::test_optimum_of_totally_ordered_problems"
+PARTIAL = f"{BRUTE_FORCE}::test_optimum_of_partially_ordered_problems"
+ADMISSIBLE = "tests/differential/test_heuristics_admissible.py"
+BEST_PLANS = "tests/differential/test_best_plans.py"
+PLAN_BASED = "tests/differential/test_plan_based.py"
+WALKS = "tests/differential/test_merged_sequences.py"
+RECURSION = "tests/differential/test_forced_recursion.py"
+PRECISION = "tests/differential/test_optimal_is_optimal.py"
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """`old` becomes `new` in a file; `tests`, as pytest takes them, should notice, the likeliest and fastest first."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+    tests: tuple[str, ...] = (UNORDERED, PARTIAL, TOTAL, BRUTE_FORCE)
+
+
+MUTATIONS = [
+    Mutation(
+        "stubborn sets: actions with contradictory effects are in no order",
+        "relax/progression/stubborn_set.cpp",
+        "return other.reads.contains(negation(literal)) || other.makes.contains(negation(literal));",
+        "return other.reads.contains(negation(literal));",
+    ),
+    Mutation(
+        "stubborn sets: what compound tasks may lead to does not matter",
+        "relax/progression/stubborn_set.cpp",
+        "if (concerns(compounds_, member, state)) {",
+        "if (false) {",
+    ),
+    Mutation(
+        "stubborn sets: conditions of costs are not read",
+        "relax/analysis/task_profiles.cpp",
+        "            read_either_way(problem_.cost_conditions[alternative]);\n",
+        "",
+    ),
+    Mutation(
+        "forgotten facts: conditions of costs are not read",
+        "relax/analysis/task_reads.cpp",
+        "            add(problem.cost_conditions[alternative]);\n",
+        "",
+    ),
+    Mutation(
+        "canonical forms: networks are the same if their tasks are, in whatever order",
+        "relax/networks/network_components.cpp",
+        "            set_bit(std::span(form_).subspan(index * words, words), place_[earlier]);\n",
+        "            static_cast<void>(earlier);\n",
+    ),
+    Mutation(
+        "macro-actions: what later actions need is forgotten",
+        "relax/networks/macro_actions.cpp",
+        "if (!has(first.made, literal)) {",
+        "if (false) {",
+        (WALKS, TOTAL, BRUTE_FORCE),
+    ),
+    Mutation(
+        "macro-actions: actions whose cost depends on the state are put together, too",
+        "relax/networks/macro_actions.cpp",
+        "if (!problem_.cost_parts[action].empty()) {",
+        "if (false) {",
+    ),
+    Mutation(
+        "dead methods: a first action is next although other tasks are unconstrained",
+        "relax/progression/progression.cpp",
+        "!first_action_.empty() && unconstrained_.size() == 1",
+        "!first_action_.empty()",
+    ),
+    Mutation(
+        "potential: a list of tasks starts with its last one",
+        "relax/heuristics/relaxed_task.cpp",
+        "starts_.push_back(model_.may_start(tasks.front()));",
+        "starts_.push_back(model_.may_start(tasks.back()));",
+        (ADMISSIBLE,),
+    ),
+    Mutation(
+        "potential: a task in partial order starts when it has ended itself",
+        "relax/heuristics/relaxed_task.cpp",
+        "needed_.push_back(model_.reached(node.tasks[earlier]));",
+        "needed_.push_back(model_.reached(node.tasks[at]));",
+        (ADMISSIBLE,),
+    ),
+    Mutation(
+        "re-opening: the first way to a node is the best",
+        "relax/search/include/relax/search/search_space.hpp",
+        "return is_as_good(nodes_[*known], network, g) ?",
+        "return true ?",
+        (WALKS, TOTAL, BRUTE_FORCE),
+    ),
+    Mutation(
+        "inherited h: the cost of the step is not taken off",
+        "relax/search/include/relax/search/cheap_bound.hpp",
+        "std::max(by_graph, parent_h - step_cost)",
+        "std::max(by_graph, parent_h)",
+    ),
+    Mutation(
+        "inherited h: that of a network whose place another one of its form takes is kept",
+        "relax/search/include/relax/search/search_space.hpp",
+        "nodes_[id].h += bounds_[network] - bounds_[nodes_[old].network];",
+        "nodes_[id].h += 0;",
+        (WALKS, TOTAL, BRUTE_FORCE),
+    ),
+    Mutation(
+        "forced steps: one of two ways is enough",
+        "relax/progression/progression.cpp",
+        "if (live_methods_.size() + to_execute_.size() > 1) {",
+        "if (live_methods_.size() + to_execute_.size() > 2) {",
+    ),
+    Mutation(
+        "forced cycle: whatever the state is",
+        "relax/search/forced_cycle.cpp",
+        "nodes[before].state == nodes[node].state && ",
+        "",
+        (RECURSION, PARTIAL, BRUTE_FORCE),
+    ),
+    Mutation(
+        "endings: the last actions have no conditional effects",
+        "relax/progression/ending.cpp",
+        "return !problem_.is_primitive(task) || !macros_.fits(problem_.action_of(task));",
+        "return !problem_.is_primitive(task);",
+        ("tests/differential/test_endings.py", PARTIAL, BRUTE_FORCE),
+    ),
+    Mutation(
+        "mutexes: what a conditional effect undoes is never true after it",
+        "relax/analysis/mutexes.cpp",
+        "if (is_certain && lost != kUnread) {",
+        "if (lost != kUnread) {",
+        ("tests/differential/test_mutexes.py",),
+    ),
+    Mutation(
+        "decomposition bound: a method costs what its most expensive subtask does, twice",
+        "relax/analysis/tdg_bound.cpp",
+        "sum[method] = add_bounds(sum[method], value);",
+        "sum[method] = add_bounds(value, value);",
+        (ADMISSIBLE,),
+    ),
+    Mutation(
+        "landmark cuts: a cut misses operators that lead into the goal zone",
+        "relax/heuristics/lm_cut.cpp",
+        "for (const OperatorId op : entrances_) {",
+        "for (const OperatorId op : std::span(entrances_).first(entrances_.empty() ? 0 : 1)) {",
+        (ADMISSIBLE,),
+    ),
+    Mutation(
+        "hmax: goals add up",
+        "relax/heuristics/hmax.cpp",
+        "            most_expensive = cost(goal);\n",
+        "            most_expensive = add_bounds(most_expensive, cost(goal));\n",
+        (ADMISSIBLE,),
+    ),
+    Mutation(
+        "shifted costs: the price of the first part, not the least, is due in every state",
+        "relax/analysis/cost_shifting.cpp",
+        "least = std::min(least, prices.parts[part]);",
+        "least = least == std::numeric_limits<Cost>::max() ? prices.parts[part] : least;",
+        ("tests/property/test_cost_shifting.py", ADMISSIBLE),
+    ),
+    Mutation(
+        "plan-based: the first network that can be executed is the best",
+        "relax/search/plan_based.cpp",
+        "if (solution_ && solution_->cost <= open_.top().priority) {",
+        "if (solution_) {",
+        (PLAN_BASED,),
+    ),
+    Mutation(
+        "best plans: a node keeps one label",
+        "relax/search/top_plans.cpp",
+        "if (options_.limits_labels && kept.size() > options_.count) {",
+        "if (options_.limits_labels && kept.size() > 1) {",
+        (BEST_PLANS,),
+    ),
+    Mutation(
+        "best plans: a list of actions that is reached at less cost is not taken up",
+        "relax/search/top_plans.cpp",
+        "if (known && labels_[*known].g <= g) {",
+        "if (known) {",
+        (BEST_PLANS,),
+    ),
+    Mutation(
+        "prices: those beyond the cap of a scale cost as much as it",
+        "src/statehtn/core/scale.py",
+        "most, exponent = self.cap + 1, self.exponent",
+        "most, exponent = self.cap // 4, self.exponent",
+        (PRECISION,),
+    ),
+    Mutation(
+        "bounds: prices are rounded up",
+        "src/statehtn/core/scale.py",
+        "min(math.floor(math.ldexp(price, exponent)), most)",
+        "min(math.ceil(math.ldexp(price, exponent)), most)",
+        (PRECISION, "tests/unit/test_precision.py"),
+    ),
+]
