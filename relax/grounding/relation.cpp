@@ -6,7 +6,7 @@
 namespace relax::grounding {
 
 std::optional<TupleId> Relation::find(std::span<const ObjectId> tuple) const {
-    assert(tuple.size() == arity_);
+    assert(tuple.size() == arity_ || size_ == 0);
     return table_.find(hash_values(tuple), [&](TupleId other) { return std::ranges::equal((*this)[other], tuple); });
 }
 
@@ -37,7 +37,8 @@ IndexId Relation::complete_index_on(const std::vector<std::uint32_t>& positions,
 }
 
 IndexId Relation::index_on(const std::vector<std::uint32_t>& positions, bool is_complete, Limits& limits) const {
-    assert(std::ranges::is_sorted(positions) && (positions.empty() || positions.back() < arity_));
+    assert(std::ranges::is_sorted(positions));
+    assert(positions.empty() || positions.back() < arity_ || size_ == 0);
     const auto known = std::ranges::find_if(
         indexes_, [&](const Index& index) { return index.is_complete == is_complete && index.positions == positions; });
     const auto id = static_cast<IndexId>(known - indexes_.begin());

@@ -32,7 +32,7 @@ bool StateTransition::is_applicable(ActionId action, std::span<const std::uint64
 void StateTransition::apply(ActionId action, std::span<const std::uint64_t> state,
                             std::span<std::uint64_t> next) const {
     assert(is_applicable(action, state));
-    assert(next.size() == state.size() && next.data() != state.data());
+    assert(next.size() == state.size() && (next.empty() || next.data() != state.data()));
     std::copy(state.begin(), state.end(), next.begin());
     for (const EffectId effect : problem_.effects[action]) {
         if (fires(effect, state)) {

@@ -39,7 +39,7 @@ public:
         const Record& record = records_[id];
         assert(index < record.size);
         const std::uint64_t* tasks = record.words + record.size * words_for(record.size);
-        return static_cast<TaskId>(tasks[index / 2] >> (index % 2 * 32));
+        return TaskId(static_cast<std::uint32_t>(tasks[index / 2] >> (index % 2 * 32)));
     }
     // The predecessors of a task, as bits.
     std::span<const std::uint64_t> row(ComponentId id, std::uint32_t index) const {
