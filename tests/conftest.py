@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 from hypothesis.vendor.pretty import RepresentationPrinter, for_type_by_name
 
 from statehtn import Problem, write_hddl
@@ -28,6 +28,7 @@ SUPPRESSED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filt
 settings.register_profile("dev", max_examples=30, deadline=None, suppress_health_check=SUPPRESSED)
 settings.register_profile("ci", max_examples=100, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
+settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
 settings.load_profile("dev")
 
 # A shell starts its background jobs with Ctrl-C ignored, `nohup` with hang-ups ignored, and CI may do both; what they

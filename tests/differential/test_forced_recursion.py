@@ -146,3 +146,17 @@ def test_forced_recursion_without_end_is_a_dead_end(search: str, first: tuple[st
     assert outcome.status is Status.UNSOLVABLE
     assert outcome.effort.generated <= 2000  # not until sums of costs overflow
     assert 0 < outcome.effort.expanded <= 2000
+
+
+@pytest.mark.parametrize("heuristic", ["auto", "blind", "tdg"])
+def test_recursion_that_changes_the_state_is_no_cycle(heuristic: str) -> None:
+    """There is but one way to go on, back to the same task, which then has another one."""
+    recursion = Recursion(
+        {"a": ((("p", False),), (("p", True),)), "b": ((("p", True),), (("q", True),)), "c": ((), ())},
+        {"t0": (("a", "t0"), ("b",)), "t1": ((),)},
+        frozenset(),
+        (("q", True),),
+    )
+    outcome = find_plans(ground(recursion.problem()), utility_for("neutral"), heuristic=heuristic)
+    assert outcome.status is Status.OPTIMAL
+    assert outcome.lower_bound == close_to(recursion.optimum())

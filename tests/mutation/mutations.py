@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 BRUTE_FORCE = "tests/differential/test_core_against_brute_force.py"
-UNORDERED = "tests/differential/test_unordered_actions.py"
+FEW_ACTIONS = "tests/differential/test_few_actions.py"
 TOTAL = f"{BRUTE_FORCE}::test_optimum_of_totally_ordered_problems"
 PARTIAL = f"{BRUTE_FORCE}::test_optimum_of_partially_ordered_problems"
 ADMISSIBLE = "tests/differential/test_heuristics_admissible.py"
@@ -28,7 +28,7 @@ class Mutation:
     file: str
     old: str
     new: str
-    tests: tuple[str, ...] = (UNORDERED, PARTIAL, TOTAL, BRUTE_FORCE)
+    tests: tuple[str, ...] = (FEW_ACTIONS, PARTIAL, TOTAL, BRUTE_FORCE)
 
 
 MUTATIONS = [
@@ -39,10 +39,10 @@ MUTATIONS = [
         "return other.reads.contains(negation(literal));",
     ),
     Mutation(
-        "stubborn sets: what compound tasks may lead to does not matter",
+        "stubborn sets: no other task makes an action applicable",
         "relax/progression/stubborn_set.cpp",
-        "if (concerns(compounds_, member, state)) {",
-        "if (false) {",
+        "return other.makes.contains(*open);",
+        "return false && other.makes.contains(*open);",
     ),
     Mutation(
         "stubborn sets: conditions of costs are not read",
@@ -67,7 +67,7 @@ MUTATIONS = [
         "relax/networks/macro_actions.cpp",
         "if (!has(first.made, literal)) {",
         "if (false) {",
-        (WALKS, TOTAL, BRUTE_FORCE),
+        (FEW_ACTIONS, WALKS, TOTAL, BRUTE_FORCE),
     ),
     Mutation(
         "macro-actions: actions whose cost depends on the state are put together, too",
@@ -92,28 +92,28 @@ MUTATIONS = [
         "potential: a task in partial order starts when it has ended itself",
         "relax/heuristics/relaxed_task.cpp",
         "needed_.push_back(model_.reached(node.tasks[earlier]));",
-        "needed_.push_back(model_.reached(node.tasks[at]));",
+        "needed_.push_back(model_.reached(node.tasks[earlier == at ? earlier : at]));",
         (ADMISSIBLE,),
     ),
     Mutation(
         "re-opening: the first way to a node is the best",
         "relax/search/include/relax/search/search_space.hpp",
         "return is_as_good(nodes_[*known], network, g) ?",
-        "return true ?",
-        (WALKS, TOTAL, BRUTE_FORCE),
+        "return g >= 0 || is_as_good(nodes_[*known], network, g) ?",
+        (FEW_ACTIONS, WALKS, TOTAL, BRUTE_FORCE),
     ),
     Mutation(
         "inherited h: the cost of the step is not taken off",
         "relax/search/include/relax/search/cheap_bound.hpp",
         "std::max(by_graph, parent_h - step_cost)",
-        "std::max(by_graph, parent_h)",
+        "std::max(by_graph, parent_h - 0 * step_cost)",
     ),
     Mutation(
         "inherited h: that of a network whose place another one of its form takes is kept",
         "relax/search/include/relax/search/search_space.hpp",
         "nodes_[id].h += bounds_[network] - bounds_[nodes_[old].network];",
         "nodes_[id].h += 0;",
-        (WALKS, TOTAL, BRUTE_FORCE),
+        (FEW_ACTIONS, WALKS, TOTAL, BRUTE_FORCE),
     ),
     Mutation(
         "forced steps: one of two ways is enough",
@@ -126,20 +126,20 @@ MUTATIONS = [
         "relax/search/forced_cycle.cpp",
         "nodes[before].state == nodes[node].state && ",
         "",
-        (RECURSION, PARTIAL, BRUTE_FORCE),
+        (RECURSION, FEW_ACTIONS, PARTIAL, BRUTE_FORCE),
     ),
     Mutation(
-        "endings: the last actions have no conditional effects",
-        "relax/progression/ending.cpp",
-        "return !problem_.is_primitive(task) || !macros_.fits(problem_.action_of(task));",
-        "return !problem_.is_primitive(task);",
-        ("tests/differential/test_endings.py", PARTIAL, BRUTE_FORCE),
+        "endings and macro-actions: what an action needs must be made just before it",
+        "relax/networks/macro_actions.cpp",
+        "if (has(first.made, negation(literal))) {",
+        "if (!has(first.made, literal)) {",
+        ("tests/differential/test_endings.py", FEW_ACTIONS, PARTIAL, BRUTE_FORCE),
     ),
     Mutation(
-        "mutexes: what a conditional effect undoes is never true after it",
+        "mutexes: actions without preconditions are executed once",
         "relax/analysis/mutexes.cpp",
-        "if (is_certain && lost != kUnread) {",
-        "if (lost != kUnread) {",
+        "return reached_tick_ >= since;",
+        "return since == 0;",
         ("tests/differential/test_mutexes.py",),
     ),
     Mutation(

@@ -115,7 +115,7 @@ def failure(tests: Sequence[str]) -> str | None:
             "-x",
             "-p",
             "no:cacheprovider",
-            "--hypothesis-profile=ci",
+            "--hypothesis-profile=mutation",
             test,
         ]
         try:
