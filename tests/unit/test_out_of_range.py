@@ -40,7 +40,8 @@ def test_other_words_are_no_numbers(word: str) -> None:
 
 def test_zero_and_the_ends_of_the_range_are_read() -> None:
     assert statehtn.plan(read("(increase (total-cost) 0.0)")).risk_cost == 0
-    assert statehtn.plan(read("(increase (total-cost) 1e-300)")).risk_cost == pytest.approx(1e-300, abs=0)
+    for number in (5e-324, 1e-300, 1e289):
+        assert statehtn.plan(read(f"(increase (total-cost) {number!r})")).risk_cost == pytest.approx(number, abs=0)
 
 
 @pytest.mark.parametrize(

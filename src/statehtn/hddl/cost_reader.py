@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+import sys
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -14,10 +16,7 @@ from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE
 from statehtn.model.cost.ground_cost import evaluate
 
 TOTAL_COST = "total-cost"
-LEAST_NUMBER, MOST_NUMBER = (
-    Fraction(1, 10**300),
-    Fraction(10**300),
-)  # smaller and larger ones are none, or are cut, in floating point
+LEAST_NUMBER, MOST_NUMBER = Fraction(math.ulp(0.0)), Fraction(sys.float_info.max)  # above 0, in floating point
 Branches = tuple[tuple[Expression, Expression], ...]
 
 _AROUND = {
@@ -51,7 +50,7 @@ def not_read(expected: str, word: Word) -> str:
     """Return the message that a word is no number where one, or something else, is `expected`."""
     if _NUMBER.fullmatch(word.text):
         return (
-            f"the number {describe(word)} is out of range: its size must be 0, or from 1e-300 to 1e300, and it must "
+            f"the number {describe(word)} is out of range: its size must be 0, or from 5e-324 to 1.79e308, and it must "
             f"have at most {MAX_DIGITS} characters, and an exponent of three digits"
         )
     return f"expected {expected}, found {describe(word)}"

@@ -53,8 +53,7 @@ struct ProgressionOptions : ProgressionSwitches {
 // - Decomposing does not depend on the state, since method preconditions are actions. So the decomposition of an
 //   unconstrained compound task can come first in any plan, and the methods of one such task are enough.
 // - An applicable unconstrained action that costs and changes nothing, as precondition actions do, can come first in
-// any
-//   plan. It is executed at once, whatever else is unconstrained.
+//   any plan. It is executed at once, whatever else is unconstrained.
 // - Of the other unconstrained actions a stubborn set is enough, beside compound tasks as well. It is tried instead of
 //   the methods where it has no more members than there are methods.
 // - Where a compound task is the only unconstrained task, the first task of its method comes next. A method whose first
