@@ -79,8 +79,6 @@ public:
         return heuristic_->evaluate({state, tasks, stands_in_order, network.predecessors, bound});
     }
 
-    std::size_t model_bytes() const { return heuristic_->model_bytes(); }
-
 private:
     const relax::GroundProblem& problem_;
     relax::Limits limits_;  // none
@@ -186,8 +184,7 @@ void bind_find_plans(nb::module_& module) {
     nb::class_<Evaluator>(module, "Evaluator")
         .def(nb::init<const relax::PricedProblem&, std::string_view>(), "priced"_a, "heuristic"_a,
              nb::keep_alive<1, 2>())
-        .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a, "ordering"_a = nb::none())
-        .def_prop_ro("model_bytes", &Evaluator::model_bytes);
+        .def("evaluate", &Evaluator::evaluate, "facts"_a, "tasks"_a, "ordering"_a = nb::none());
 
     module.def("find_plans", &find_plans, "priced"_a, "options"_a, "seconds"_a = nb::none(),
                "memory_bytes"_a = nb::none(), "steps"_a = nb::none(), "progress"_a = nb::none());

@@ -21,7 +21,6 @@ Formula normal_form(const Knowledge& knowledge, const Formula& formula);
 void split_conjunction(const Formula& formula, std::vector<Formula>& conjuncts);
 
 inline bool is_true(const Formula& formula) { return formula.kind == FormulaKind::And && formula.operands.empty(); }
-inline bool is_false(const Formula& formula) { return formula.kind == FormulaKind::Or && formula.operands.empty(); }
 
 // Append the slots of the formula's variables that none of its quantifiers binds, with repetitions.
 void free_slots(const Formula& formula, std::vector<std::uint32_t>& slots);

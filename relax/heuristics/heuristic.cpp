@@ -54,7 +54,6 @@ public:
 
     std::uint64_t work() const override { return slack_.work(); }
     std::uint64_t rounds() const override { return slack_.rounds(); }
-    std::size_t model_bytes() const override { return slack_.model_bytes(); }
 
 private:
     RcHeuristic<ClassicalHeuristic> slack_;

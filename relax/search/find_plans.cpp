@@ -10,12 +10,6 @@
 
 namespace relax {
 
-namespace {
-
-constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
-
-}  // namespace
-
 FindPlans::FindPlans(const PricedProblem& priced, const FindPlansOptions& options, Limits& limits,
                      SearchStatistics& statistics)
     : StepwiseSearch(priced, limits, statistics),

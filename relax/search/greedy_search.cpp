@@ -15,7 +15,6 @@ constexpr std::int64_t kTurnsEarned = 1000;      // by preferred successors, whe
 constexpr std::uint32_t kLongestWalk = 1000;     // through nodes with a single successor: networks may grow without end
 constexpr std::uint64_t kMoreEvaluations = 200;  // after the first plan, besides as many as it took
 constexpr std::uint64_t kMoreWork = 30'000'000;  // likewise, at most
-constexpr std::uint64_t kWorkOfANode = 200;      // in operators that a heuristic looks at; by time, roughly
 
 }  // namespace
 

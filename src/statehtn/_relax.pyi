@@ -410,8 +410,6 @@ class Evaluator:
     def evaluate(
         self, facts: Sequence[int], tasks: Sequence[int], ordering: Sequence[tuple[int, int]] | None = None
     ) -> int | None: ...
-    @property
-    def model_bytes(self) -> int: ...
 
 def find_plans(
     priced: PricedProblem,

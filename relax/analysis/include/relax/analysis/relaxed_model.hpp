@@ -68,11 +68,6 @@ struct RelaxedModel {
     bool starts_action(RelaxedFact fact) const { return fact - first_start < action_count; }
     // Of the composition model alone: an operator that only settles a part of an action's cost is no step of its own.
     bool is_step(OperatorId op) const { return adds[op].front() < first_settled; }
-    // The size of what an evaluation may read.
-    std::size_t bytes() const {
-        return preconditions.bytes() + adds.bytes() + precondition_of.bytes() + achievers.bytes() +
-               owner_operators.bytes() + owner.size() * sizeof(OwnerId) + owner_cost.size() * sizeof(Cost);
-    }
 };
 
 }  // namespace relax

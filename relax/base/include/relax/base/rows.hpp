@@ -23,7 +23,6 @@ public:
     using Row = Index;
 
     std::size_t size() const { return ends_.size(); }
-    std::size_t bytes() const { return ends_.size() * sizeof(std::uint32_t) + values_.size() * sizeof(Value); }
 
     std::span<const Value> operator[](Index row) const {
         assert(row < size());

@@ -42,8 +42,6 @@ public:
         return 0;
     }
 
-    std::size_t model_bytes() const override { return model_.bytes(); }
-
     bool is_preferred(MethodId method) const override {
         if constexpr (requires { classical_.uses(OperatorId{}); }) {
             return classical_.uses(model_.method_operator[method]);

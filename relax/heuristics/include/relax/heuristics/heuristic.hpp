@@ -25,8 +25,6 @@ public:
     virtual std::uint64_t work() const { return 0; }
     // How many landmark cuts it has made so far.
     virtual std::uint64_t rounds() const { return 0; }
-    // The size of the model that it works on, in bytes; 0 where there is none.
-    virtual std::size_t model_bytes() const { return 0; }
     // Whether the latest evaluation's relaxed plan uses the method, if there is one.
     virtual bool is_preferred(MethodId /*method*/) const { return false; }
 };

@@ -30,6 +30,8 @@ public:
     virtual SearchResult result() = 0;
 
 protected:
+    static constexpr std::uint64_t kWorkOfANode = 200;  // in operators that a heuristic looks at; by time, roughly
+
     StepwiseSearch(const PricedProblem& priced, Limits& limits, SearchStatistics& statistics)
         : priced_(priced),
           problem_(priced.problem),
