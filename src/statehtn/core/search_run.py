@@ -6,7 +6,7 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields
-from typing import Generic, TypeVar, overload
+from typing import Generic, TypeVar
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import STOPPED
@@ -23,24 +23,18 @@ P = TypeVar("P", bound=SearchProgress)
 S = TypeVar("S", bound=_relax.SearchStatistics)
 
 
-class TracedPlans(Sequence[Plan]):
+@dataclass(frozen=True, slots=True)
+class TracedPlans:
     """Plans that the core has found, each read when it is asked for: that takes longer than finding it."""
 
-    def __init__(self, reader: TraceReader, results: Sequence[_relax.SearchResult]) -> None:
-        self.reader = reader
-        self.results = results
+    reader: TraceReader
+    results: Sequence[_relax.SearchResult]
 
     def __len__(self) -> int:
         return len(self.results)
 
-    @overload
-    def __getitem__(self, index: int) -> Plan: ...
-    @overload
-    def __getitem__(self, index: slice) -> TracedPlans: ...
-    def __getitem__(self, index: int | slice) -> Plan | TracedPlans:
-        if isinstance(index, slice):
-            return TracedPlans(self.reader, self.results[index])
-        return self.reader.read(self.results[index])
+    def __iter__(self) -> Iterator[Plan]:
+        return self.read(Limits())
 
     def read(self, limits: Limits) -> Iterator[Plan]:
         """Yield the plans.
@@ -79,7 +73,7 @@ class SearchOutcome:
     @property
     def plan(self) -> Plan | None:
         """The best plan; None where none was found."""
-        return self.plans[0] if self.plans else None
+        return next(iter(self.plans), None)
 
 
 class SearchRun(ABC, Generic[P, S]):
