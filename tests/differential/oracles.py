@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
-from statehtn import Problem, Result, Status, TopPlans, pipeline
+from statehtn import Plan, Problem, Result, Status, TopPlans, pipeline, validate
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.limits import Limits
 from statehtn.pipeline import Session
+from statehtn.reference.search_node import Solution
 from statehtn.risk import Utility
 from statehtn.settings import Settings, TopSettings
 from tests.brute_force import GaveUp
@@ -36,6 +37,25 @@ def must_have_ended(stopped: Status | None) -> None:
     if stopped is not None:
         assert stopped is Status.TIME_LIMIT
         raise GaveUp
+
+
+def must_cost(problem: Problem, plan: Plan, utility: Utility, cost: float | None) -> None:
+    """Require that a plan is valid, and has this risk cost in the states that it runs through."""
+    validation = validate(problem, plan)
+    assert validation.valid, validation.reasons
+    assert validation.risk_cost(utility) == close_to(cost)
+
+
+def must_agree(problem: Problem, utility: Utility, solution: Solution, **options: Any) -> None:
+    """Require that the planner comes to what the readable algorithm has come to; give up where one of them has."""
+    if solution.status is Status.GAVE_UP:
+        raise GaveUp
+    result = solve(problem, utility, **options)
+    must_have_ended(result.stopped)
+    assert solution.status is result.status
+    if solution.plan is not None:
+        assert solution.risk_cost == close_to(result.risk_cost)
+        must_cost(problem, solution.plan, utility, result.risk_cost)
 
 
 def close_to(cost: float | None) -> object:

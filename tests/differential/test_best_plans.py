@@ -16,7 +16,7 @@ from statehtn.core.top_plans import find_top_plans
 from statehtn.model import Plan, Problem
 from statehtn.risk import Utility
 from tests.brute_force import LARGEST_NETWORK, all_plans, best_risk_costs
-from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_have_ended, solve_top
+from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_cost, must_have_ended, solve_top
 from tests.strategies import grounding_switches, problems, utilities
 
 DISTINCT = ("sequence", "multiset")
@@ -35,9 +35,7 @@ def check(problem: Problem, utility: Utility, k: int, distinct: str, result: Top
     costs = [ranked.risk_cost for ranked in result]
     assert len({key(ranked.plan, distinct) for ranked in result}) == len(result) <= k
     for rank, ranked in enumerate(result, 1):
-        validation = validate(problem, ranked.plan)
-        assert validation.valid, validation.reasons
-        assert validation.risk_cost(utility) == close_to(ranked.risk_cost)
+        must_cost(problem, ranked.plan, utility, ranked.risk_cost)
         assert ranked.rank == rank
         assert ranked.is_proven == (rank <= result.proven)
     assert costs[: result.proven] == close_to(expected[: result.proven])

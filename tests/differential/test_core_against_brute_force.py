@@ -18,7 +18,7 @@ from statehtn.core.switches import SearchSwitches
 from statehtn.model import Problem
 from statehtn.risk import Utility, utility_for
 from tests.brute_force import GaveUp, optimal_risk_cost
-from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_have_ended, solve
+from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_cost, must_have_ended, solve
 from tests.strategies import grounding_switches, problems, utilities
 
 
@@ -35,9 +35,7 @@ def check(problem: Problem, utility: Utility, result: Result) -> None:
     assert result.lower_bound is not None
     assert result.lower_bound <= optimum * (1 + 1e-9) + 1e-9
     if result.plan is not None:
-        validation = validate(problem, result.plan)
-        assert validation.valid, validation.reasons
-        assert validation.risk_cost(utility) == close_to(result.risk_cost)
+        must_cost(problem, result.plan, utility, result.risk_cost)
         assert optimum <= result.risk_cost * (1 + 1e-9) + 1e-9
     if result.status is Status.OPTIMAL:
         assert result.risk_cost == close_to(optimum)

@@ -17,7 +17,7 @@ from statehtn.core.searches import TAKES
 from statehtn.model import Problem
 from statehtn.risk import Utility
 from tests.brute_force import optimal_risk_cost
-from tests.differential.oracles import LIMITS, close_to, must_have_ended, solve
+from tests.differential.oracles import LIMITS, close_to, must_cost, must_have_ended, solve
 from tests.strategies import grounding_switches, problems, utilities
 
 DOMAINS = Path(__file__).parents[2] / "domains"
@@ -72,9 +72,7 @@ def test_refinements_keep_the_optimum(
     must_have_ended(outcome.stopped)
     assert (outcome.plan is None) == (optimum is None)
     if outcome.plan is not None:
-        validation = validate(problem, outcome.plan)
-        assert validation.valid, validation.reasons
-        assert validation.risk_cost(utility) == close_to(optimum)
+        must_cost(problem, outcome.plan, utility, optimum)
 
 
 @given(problem=problems(), utility=utilities())
