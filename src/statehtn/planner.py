@@ -80,9 +80,8 @@ class Planner:
             attitude: neutral, averse or seeking.
             alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
             solver: a name from `SOLVERS`.
-            heuristic: a name from `HEURISTICS`, or `auto`, the default for all but greedy search: three searches by
-                turns. The default is `ff` for greedy search, and `tdg` for the
-                solver `plan`, which takes `blind` besides.
+            heuristic: a name from `HEURISTICS`, or `auto`: three searches in turn. `auto` is the default, but for
+                greedy search, whose default is `ff`, and the solver `plan`, which takes `tdg`, its default, or `blind`.
             search: `astar` returns an optimal plan, `weighted` one within a proven bound, `greedy` any plan; `anytime`
                 finds one soon, and better ones until it is optimal.
             weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).

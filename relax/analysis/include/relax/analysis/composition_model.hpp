@@ -15,7 +15,7 @@ namespace relax {
 //
 // Admissible: follow a plan. Whatever holds before one of its actions is reached by the operators of earlier ones, so
 // that the action's operators can be applied; after the last one, its tasks are reached bottom-up by its methods. This
-// pays the owners that the plan pays, each no more often.
+// pays the owners (see relaxed_model.hpp) that the plan pays, each no more often.
 //
 // Throws Stopped.
 RelaxedModel composition_model(const GroundProblem& problem, const Prices& prices, Limits& limits);

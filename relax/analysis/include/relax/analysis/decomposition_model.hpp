@@ -26,8 +26,9 @@ namespace relax {
 // what is below it begins. By induction, whenever a task's turn has come in the plan, the fact that it may start has
 // been reached, since all tasks ordered before it have ended; and when it has ended, the fact that it has been reached.
 // Where a task occurs twice, these facts hold for the later occurrence as soon as they do for the earlier one: the
-// model may start and end it too early, which allows more than the plan does and excludes nothing. The owners that pay
-// for this are methods that were entered and parts that were due, each paid no more often than in the plan.
+// model may start and end it too early, which allows more than the plan does and excludes nothing. The owners (see
+// relaxed_model.hpp) that pay for this are methods that were entered and parts that were due, each paid no more often
+// than in the plan.
 //
 // `task_bounds`: by TaskId, see `tdg_bound`. Throws Stopped.
 RelaxedModel decomposition_model(const GroundProblem& problem, std::span<const Cost> task_bounds,

@@ -12,10 +12,9 @@ namespace relax {
 
 // computeRCAdHeur, the paper's Algorithm 5: a classical heuristic on a relaxed model. Where it differs from the paper:
 //
-// - Lines 2 to 6: the model is built once, with its costs; a node selects the part of it that its network reaches. In
-// the
-//   composition model (`composition_model`) methods cost 0 (lines 3 and 4) and actions their risk cost (lines 5 and 6),
-//   which adds up along a plan; the plain expected utility of the paper does not for exponential utilities.
+// - Lines 2 to 6: the model is built once, with its costs; a node selects the part of it that its network reaches.
+//   In the composition model (`composition_model`) methods cost 0 (lines 3 and 4) and actions their risk cost (lines 5
+//   and 6), which adds up along a plan; the plain expected utility of the paper does not for exponential utilities.
 // - `decomposition_model` is another model to ask a classical heuristic about.
 template <typename ClassicalHeuristic>
 class RcHeuristic final : public Heuristic {

@@ -23,12 +23,10 @@ using MacroId = Id<struct MacroTag>;
 // cost.
 //
 // (1) A sequence can be executed in a state that can be reached only if all that is needed holds there, and then it
-// can:
-//     an action that needs what an earlier one has made false, or literals needed together of which two never hold
-//     together (Mutexes), make the sequence impossible.
+//     can: an action that needs what an earlier one has made false, or literals needed together of which two never
+//     hold together (Mutexes), make the sequence impossible.
 // (2) In such a state, executing it makes true exactly `made`. Literals that hold before anyway are left out: those
-// that
-//     are needed, and those whose negation never holds together with one that is needed.
+//     that are needed, and those whose negation never holds together with one that is needed.
 //
 // By induction on the length of the sequence, where a literal that an action needs is needed of the sequence unless an
 // earlier action makes it, and of two that make a fact and its negation the later one counts. Where the mutexes were

@@ -21,9 +21,9 @@ namespace relax {
 // of S keeps a plan of every cost. Let R be the tasks outside S that are not ordered after a member of S; a compound
 // task stands for every action that it may lead to.
 //
-// (1) Where a in S is applicable: no action of R makes false what a reads, a makes false nothing that an action of R
-//     reads, and the two make no contradictory facts.
-// (2) Where a in S is not applicable: no action of R makes one particular false precondition of a true.
+// (1) Where a member `a` of S is applicable: no action of R makes false what `a` reads, `a` makes false nothing that an
+//     action of R reads, and the two make no contradictory facts.
+// (2) Where `a` is not applicable: one of its preconditions is false, and no action of R makes it true.
 //
 // Proof. Every plan executes all members of S, since no task of a network is optional. Take a plan and the member b of
 // S that comes first in it. What is executed before b comes from R: it is not of S, and it is not ordered after a

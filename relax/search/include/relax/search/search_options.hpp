@@ -68,8 +68,8 @@ enum class Distinct : std::uint8_t { Sequence, Multiset };
 struct TopPlansOptions : ProgressionSwitches, BoundSwitches {  // stubborn sets are for multisets
     std::size_t count = 1;                                     // of plans that are wanted
     Distinct distinct = Distinct::Sequence;
-    const HeuristicInfo* heuristic = &heuristic_named("lmcut");  // admissible
-    bool limits_labels = true;                                   // keep no more than `count` labels at a node
+    const HeuristicInfo* heuristic = &heuristic_named("potential");  // admissible
+    bool limits_labels = true;                                       // keep no more than `count` labels at a node
 };
 
 }  // namespace relax
