@@ -151,7 +151,7 @@ def compared_agents(alpha: float | Iterable[float], attitudes: Iterable[Attitude
     Raises:
         UsageError: an attitude or an alpha is none, or there are no agents.
     """
-    alphas = items(alpha, "alpha") if isinstance(alpha, Iterable) else [alpha]
+    alphas = items(alpha, "alpha") if isinstance(alpha, Iterable) and not isinstance(alpha, str) else [alpha]
     names = [attitudes] if isinstance(attitudes, str) else items(attitudes, "'attitudes'")
     agents = agents_of(
         [Attitude(one_of(name, list(Attitude), "attitude")) for name in names],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import Literal
@@ -14,7 +14,7 @@ from statehtn.core.searches import SEARCHES, TAKES
 from statehtn.core.switches import SearchSwitches
 from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
-from statehtn.expected import number, one_of, whole_number
+from statehtn.expected import number, one_of, shown, whole_number
 from statehtn.risk import Neutral, Utility, problem_class
 
 SOLVERS: Mapping[str, str] = MappingProxyType(
@@ -76,20 +76,19 @@ class Settings:
             one_of(heuristic, HEURISTIC_CHOICES, "heuristic")
         if branch is not None:
             one_of(branch, BRANCHES, "branch")
-        for name in without:
-            one_of(name, SWITCHES, "refinement")
+        left_out = tuple(sorted(set(_refinements(without))))
         if reason := mismatch(solver, heuristic, search, without):
             raise UsageError(reason)
         if branch is not None and solver != "plan":
             raise UsageError(f"a branch belongs to the solver 'plan', not to '{solver}'")
         if weight is not None and search != "weighted":
             raise UsageError(f"a weight belongs to the weighted search, not to '{search}'")
-        if weight is not None and not (math.isfinite(number(weight, "the weight")) and weight >= 1):
-            raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
         if weight is None:
             weight = DEFAULT_WEIGHT if search == "weighted" else 1.0
+        weight = number(weight, "the weight")
+        if not (math.isfinite(weight) and weight >= 1):
+            raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
         heuristic = heuristic or TAKES[solver, search][0]
-        left_out = tuple(sorted(set(without)))
         return Settings(objective, solver, heuristic, search, weight, branch or "fewest", left_out)
 
     @property
@@ -122,7 +121,7 @@ class TopSettings:
             UsageError: a name is unknown, or a number out of range.
         """
         if not 1 <= whole_number(k, "the number of plans") <= MOST_PLANS:
-            raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {k}")
+            raise UsageError(f"the number of plans must be from 1 to {MOST_PLANS}, found {shown(k)}")
         one_of(distinct, DISTINCT, "value of 'distinct'")
         takes = TAKES["state", "top"]
         heuristic = takes[0] if heuristic is None else heuristic
@@ -138,8 +137,16 @@ class TopSettings:
 
 
 def switches_in(text: str) -> tuple[str, ...]:
-    """Return the names in a text such as `endings+stubborn_sets`; none for `nothing`."""
-    return () if text == NOTHING else tuple(text.split("+"))
+    """Return the names in a text such as `endings+stubborn_sets`; none for `nothing`.
+
+    Raises:
+        UsageError: there is no such refinement.
+    """
+    return () if text == NOTHING else _refinements(text.split("+"))
+
+
+def _refinements(names: Iterable[str]) -> tuple[str, ...]:
+    return tuple(one_of(name, SWITCHES, "refinement") for name in names)
 
 
 def mismatch(solver: str, heuristic: str | None, search: str, without: Sequence[str] = ()) -> str | None:

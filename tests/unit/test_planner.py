@@ -8,6 +8,8 @@ import subprocess
 import sys
 import threading
 import time
+from decimal import Decimal
+from fractions import Fraction
 
 import pytest
 
@@ -96,6 +98,7 @@ def problem() -> statehtn.Problem:
         {"weight": 2.0},
         {"search": "weighted", "weight": 0.5},
         {"search": "weighted", "weight": float("inf")},
+        {"search": "weighted", "weight": Fraction(1, 2)},
         {"time_limit": -1.0},
         {"time_limit": 0.0},
         {"memory_limit": -5.0},
@@ -248,6 +251,7 @@ def test_greedy_search_goes_on_for_a_cheaper_plan() -> None:
 def test_the_weighted_search_has_a_default_weight() -> None:
     assert Settings.of(search="weighted").weight == 2.0
     assert Settings.of(search="weighted", weight=1.5).weight == 1.5
+    assert type(Settings.of(search="weighted", weight=Decimal("2.5")).weight) is float
     assert Settings.of().weight == 1.0
 
 

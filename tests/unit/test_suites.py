@@ -134,6 +134,8 @@ def test_refinements_are_left_out(tree: Path) -> None:
     assert [run.key[4] for run in runs_of("ipc", Grid(without=(("endings",),)), tree)] == ["state without endings"] * 3
     with pytest.raises(InputError, match=r"'without'.*stubborn_sets.*'sets'"):
         runs_of(suite(tree, FILE.replace("repeat = 2", 'without = "sets"')), Grid())
+    with pytest.raises(InputError, match=r"'nothing' alone.*'nothing\+endings'"):
+        runs_of(suite(tree, FILE.replace("repeat = 2", 'without = "nothing+endings"')), Grid())
     with pytest.warns(UserWarning, match="left out: plan without endings .* none of the refinements of 'state'"):
         assert len(runs_of("ipc", Grid(solvers=("plan",), without=((), ("endings",))), tree)) == 3
 

@@ -177,6 +177,7 @@ def test_a_limit_leaves_what_was_proven_and_progress_is_told() -> None:
     [
         ({"k": 0}, "the number of plans must be from 1 to 1000000000, found 0"),
         ({"k": 10**30}, "must be from 1"),
+        ({"k": 10**5000}, "must be from 1"),
         ({"k": 1, "distinct": "set"}, "'set'; there are sequence, multiset"),
         ({"k": 1, "heuristic": "ff"}, "'ff' may estimate more than is true.*take one of blind, tdg.*potential-hmax$"),
         ({"k": 1, "heuristic": "auto"}, "heuristic for the best plans 'auto'.*there are blind, tdg.*potential-hmax$"),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,7 @@ from tests.test_minimal import DOMAIN, PROBLEM
 
 NONSENSE: list[object] = [
     *(None, True, 3, -1, 2.5, float("nan"), float("inf"), 10**400, "nonsense", "", b"x", object(), object, len),
+    *(Fraction(1, 2), Decimal("2.5")),
     *([], [1], [None], [[0.5, "a"]], [("a", "b")], (1, 2, 3), {}, {1: 2}, {"a": "b"}, {1: None}, {None: None}),
 ]
 Call = tuple[Callable[..., Any], list[Any], dict[str, Any]]

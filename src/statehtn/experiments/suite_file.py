@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -112,11 +111,13 @@ class _Table(KeyedTable):
         return list(dict.fromkeys(names))
 
     def omissions(self, key: str) -> list[tuple[str, ...]]:
-        omissions = list(map(switches_in, self.texts(key))) if key in self.values else []
-        for name in chain.from_iterable(omissions):
-            if name not in SWITCHES:
-                self.complain(key, f"'{NOTHING}', or some of {', '.join(SWITCHES)} joined by +", name)
-        return list(dict.fromkeys(omissions))
+        omissions: dict[tuple[str, ...], None] = {}
+        for text in self.texts(key) if key in self.values else []:
+            try:
+                omissions[switches_in(text)] = None
+            except UsageError:
+                self.complain(key, f"'{NOTHING}' alone, or some of {', '.join(SWITCHES)} joined by +", text)
+        return list(omissions)
 
     def alphas(self) -> list[float]:
         value = self.values.get("alphas", [])

@@ -100,7 +100,8 @@ class Exponential:
         exponential in it.
         """
         digits = whole_number(digits, "the number of digits")
-        if not math.isfinite(number(risk_cost, "a risk cost")):
+        risk_cost = number(risk_cost, "a risk cost")
+        if not math.isfinite(risk_cost):
             raise UsageError(f"a risk cost must be finite, found {risk_cost:g}")
         exponent = Decimal(self.alpha) * Decimal(risk_cost)
         carried = DOUBLE_DIGITS - max(0, exponent.adjusted() + 1) if exponent else DOUBLE_DIGITS

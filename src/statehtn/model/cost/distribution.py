@@ -177,7 +177,7 @@ class CostDistribution(CostLaw):
 
     def exponential_mean(self, slope: float) -> float:
         """Return `ln E[e^(slope C)] / slope`, between the least and the largest outcome."""
-        number(slope, "the slope")
+        slope = number(slope, "the slope")
         probabilities, costs = zip(*self.outcomes, strict=True)
         mean = min(max(self.mean, self.least), self.most)
         return exponential_mean_of(probabilities, costs, mean, slope)
