@@ -1,0 +1,53 @@
+"""What a plan is chosen by: a functional of the law of its total cost, minimised."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Protocol, runtime_checkable
+
+from statehtn.model.cost.law import CostLaw
+
+
+class ValueUnit(StrEnum):
+    """The unit of an objective's values."""
+
+    COST = "cost"
+    """The domain's own; a certain cost has itself as its value."""
+    PROBABILITY = "probability"
+    UTILITY = "utility"
+    """Minus the expected utility."""
+
+
+@runtime_checkable
+class Objective(Protocol):
+    """What plans are compared by: `value` of the law of a plan's total cost, minimised.
+
+    `str` of an objective is its text form, from which `statehtn.objective` makes it again (`cvar 0.95`).
+    """
+
+    @property
+    def unit(self) -> ValueUnit:
+        """The unit of its values."""
+        ...
+
+    @property
+    def monotone(self) -> bool:
+        """True if a law is never worse than one of larger costs (in the usual stochastic order)."""
+        ...
+
+    @property
+    def concave(self) -> bool:
+        """True if a law is never worse than one that is larger in the increasing convex order: it is averse to risk."""
+        ...
+
+    def value(self, law: CostLaw) -> float:
+        """Return what a total cost of this law is worth: to be minimised, in `unit`.
+
+        Raises:
+            InputError: it is infinite, or cannot be computed.
+        """
+        ...
+
+    def __str__(self) -> str:
+        """Return the text form."""
+        ...
