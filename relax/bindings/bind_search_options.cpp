@@ -101,13 +101,14 @@ void bind_search_options(nb::module_& module) {
         .value("Sequence", relax::Distinct::Sequence)
         .value("Multiset", relax::Distinct::Multiset);
 
-    auto top_plans = nb::class_<relax::TopPlansOptions>(module, "TopPlansOptions")
-                         .def(nb::init<>())
-                         .def_rw("count", &relax::TopPlansOptions::count)
-                         .def_rw("distinct", &relax::TopPlansOptions::distinct)
-                         .def_rw("tdg_bound", &relax::TopPlansOptions::tdg_bound)
-                         .def_rw("inherit_h", &relax::TopPlansOptions::inherit_h)
-                         .def_rw("limits_labels", &relax::TopPlansOptions::limits_labels);
-    def_heuristic(top_plans);
-    def_progression_switches(top_plans);
+    auto label_search = nb::class_<relax::LabelSearchOptions>(module, "LabelSearchOptions")
+                            .def(nb::init<>())
+                            .def_rw("count", &relax::LabelSearchOptions::count)
+                            .def_rw("distinct", &relax::LabelSearchOptions::distinct)
+                            .def_rw("upper_bound", &relax::LabelSearchOptions::upper_bound)
+                            .def_rw("tdg_bound", &relax::LabelSearchOptions::tdg_bound)
+                            .def_rw("inherit_h", &relax::LabelSearchOptions::inherit_h)
+                            .def_rw("limits_labels", &relax::LabelSearchOptions::limits_labels);
+    def_heuristic(label_search);
+    def_progression_switches(label_search);
 }

@@ -7,5 +7,6 @@ NB_MODULE(_relax, module) {
     bind_priced_problem(module);
     bind_search_options(module);
     bind_find_plans(module);
-    bind_top_plans(module);
+    bind_valuations(module);
+    bind_label_search(module);
 }

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "relax/search/label_search.hpp"
 #include "relax/search/search.hpp"
-#include "relax/search/top_plans.hpp"
 
 namespace {
 
@@ -164,13 +164,13 @@ bool solve_in_two_threads(bool ordered) {
 bool solve_for_several(bool ordered, relax::Distinct distinct, const std::vector<relax::Cost>& expected) {
     const relax::AnalysedProblem problem(make_problem(ordered));
     const relax::PricedProblem priced(problem, {{3, 5, 4}, {}});
-    relax::TopPlansOptions options;
+    relax::LabelSearchOptions options;
     options.count = 4;
     options.distinct = distinct;
     relax::Limits limits;
-    relax::TopPlansStatistics statistics;
-    relax::TopPlans search(priced, {0, 1, 2}, options, limits, statistics);
-    const relax::TopPlansResult result = search.run();
+    relax::LabelStatistics statistics;
+    relax::PriceSums sums(priced);
+    const relax::LabelSearchResult result = relax::label_search(problem, sums, {0, 1, 2}, options, limits, statistics);
     std::vector<relax::Cost> costs;
     for (const relax::SearchResult& plan : result.plans) {
         costs.push_back(plan.cost.value_or(0));

@@ -179,16 +179,16 @@ MUTATIONS = [
     ),
     Mutation(
         "best plans: a node keeps one label",
-        "relax/search/top_plans.cpp",
-        "if (options_.limits_labels && kept.size() > options_.count) {",
-        "if (options_.limits_labels && kept.size() > 1) {",
+        "relax/search/label_space.cpp",
+        "if (limits_labels_ && kept.size() > count_) {",
+        "if (limits_labels_ && kept.size() > 1) {",
         (BEST_PLANS,),
     ),
     Mutation(
         "best plans: a list of actions that is reached at less cost is not taken up",
-        "relax/search/top_plans.cpp",
-        "if (known && labels_[*known].g <= g) {",
-        "if (known) {",
+        "relax/search/label_space.cpp",
+        "if (valuation_.worth(same->value) <= worth) {",
+        "if (valuation_.worth(same->value) != kNoWorth) {",
         (BEST_PLANS,),
     ),
     Mutation(

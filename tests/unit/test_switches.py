@@ -27,7 +27,7 @@ def switches_of(options: object) -> dict[str, bool]:
     [
         (SearchSwitches, _relax.FindPlansOptions),
         (ProgressionSwitches, _relax.GreedyOptions),
-        (TopSwitches, _relax.TopPlansOptions),
+        (TopSwitches, _relax.LabelSearchOptions),
     ],
 )
 def test_switches_are_the_fields_of_the_core(kind: type[ProgressionSwitches], options: type) -> None:

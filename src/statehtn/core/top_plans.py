@@ -40,7 +40,7 @@ def find_top_plans(
         progress: called about every 50 ms on the calling thread.
         switches: refinements to leave out.
     """
-    options = _relax.TopPlansOptions()
+    options = _relax.LabelSearchOptions()
     options.count = k
     options.distinct = DISTINCT[distinct]
     options.heuristic = heuristic

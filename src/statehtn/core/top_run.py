@@ -19,7 +19,7 @@ Key = tuple[int, ...]
 """What no two plans have in common: their actions, in the order of their execution or sorted."""
 
 
-class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
+class TopRun(SearchRun[TopProgress, _relax.LabelStatistics]):
     """The best plans that are known, in the order of their costs, and a bound of all others.
 
     `bound` holds for every plan that is not among the `plans`, on whatever scale it was proven: a search proves it of
@@ -30,7 +30,7 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
     def __init__(
         self,
         problem: PricedProblem,
-        options: _relax.TopPlansOptions,
+        options: _relax.LabelSearchOptions,
         limits: Limits,
         progress: Callable[[TopProgress], None] | None,
     ) -> None:
@@ -49,7 +49,8 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
 
     def search(self) -> None:
         """Search on the present scale."""
-        result = _relax.top_plans(self.prices.handle, self.action_names, self.options, *self.limits.left(), self.watch)
+        problem, sums = self.problem.grounding.handle, _relax.PriceSums(self.prices.handle)
+        result = _relax.label_search(problem, sums, self.action_names, self.options, *self.limits.left(), self.watch)
         self.take(result.statistics, result.stop)
         self.unread = len(result.plans) < result.statistics.found
         self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)
@@ -84,7 +85,7 @@ class TopRun(SearchRun[TopProgress, _relax.TopPlansStatistics]):
         return SearchOutcome(status, self.stopped, plans, bound, self.effort, self.proven, is_all, self.unread)
 
     def progress_of(
-        self, statistics: _relax.TopPlansStatistics, seconds: float, effort: SearchEffort, bound: float | None
+        self, statistics: _relax.LabelStatistics, seconds: float, effort: SearchEffort, bound: float | None
     ) -> TopProgress:
         """Return what the user's callback is told while a search goes on."""
         found, proven = max(len(self.plans), statistics.found), max(self.proven, statistics.proven)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "relax/base/ids.hpp"
+#include "relax/base/worth.hpp"
 #include "relax/heuristics/heuristic.hpp"
 #include "relax/progression/progression.hpp"
 
@@ -65,11 +66,14 @@ using SearchOptions = std::variant<FindPlansOptions, GreedyOptions, PlanBasedOpt
 // When two plans are different: as sequences of actions, or by which actions they have and how many of each.
 enum class Distinct : std::uint8_t { Sequence, Multiset };
 
-struct TopPlansOptions : ProgressionSwitches, BoundSwitches {  // stubborn sets are for multisets
-    std::size_t count = 1;                                     // of plans that are wanted
-    Distinct distinct = Distinct::Sequence;
+struct LabelSearchOptions : ProgressionSwitches, BoundSwitches {     // stubborn sets are for multisets
+    std::size_t count = 1;                                           // of plans that are wanted
+    Distinct distinct = Distinct::Sequence;                          // where several are
     const HeuristicInfo* heuristic = &heuristic_named("potential");  // admissible
-    bool limits_labels = true;                                       // keep no more than `count` labels at a node
+    std::optional<Worth> upper_bound;                                // only plans that are worth less are wanted
+    bool limits_labels = true;  // leave out labels where as many as plans are wanted are as good
+
+    bool tells_sequences() const { return count > 1 && distinct == Distinct::Sequence; }
 };
 
 }  // namespace relax

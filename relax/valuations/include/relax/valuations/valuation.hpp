@@ -27,7 +27,10 @@ struct CostToCome {
 // commutative, and determine the worth of each completion. All lower bounds are rounded down.
 class Valuation {
 public:
+    Valuation() = default;
     virtual ~Valuation() = default;
+    Valuation(const Valuation&) = delete;
+    Valuation& operator=(const Valuation&) = delete;
 
     // The vectors of prices at which it is to be told what is still to come. They stay.
     virtual std::span<const PricedProblem* const> prices() const = 0;

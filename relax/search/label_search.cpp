@@ -1,0 +1,311 @@
+#include "relax/search/label_search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "relax/search/plan_trace.hpp"
+
+namespace relax {
+
+namespace {
+
+// By ActionId: actions that certainly cost nothing, and may be executed at once: between sequences, where order makes a
+// difference, those without a name.
+std::vector<bool> free_actions(std::span<const PricedProblem* const> prices,
+                               std::span<const std::optional<ActionName>> names, const LabelSearchOptions& options) {
+    std::vector<bool> is_free(names.size(), true);
+    for (const PricedProblem* const priced : prices) {
+        const std::vector<bool> costs_nothing = priced->free_actions();
+        for (std::size_t action = 0; action < names.size(); ++action) {
+            is_free[action] = is_free[action] && costs_nothing[action];
+        }
+    }
+    for (std::size_t action = 0; action < names.size(); ++action) {
+        is_free[action] = is_free[action] && (!options.tells_sequences() || !names[action]);
+    }
+    return is_free;
+}
+
+// Stubborn sets leave out orders of the same actions.
+ProgressionOptions allowed(const LabelSearchOptions& options) {
+    ProgressionOptions allowed = {options};
+    allowed.stubborn_sets = allowed.stubborn_sets && !options.tells_sequences();
+    return allowed;
+}
+
+}  // namespace
+
+LabelSearch::LabelSearch(const AnalysedProblem& problem, Valuation& valuation,
+                         std::vector<std::optional<ActionName>> names, const LabelSearchOptions& options,
+                         Limits& limits, LabelStatistics& statistics)
+    : problem_(problem),
+      valuation_(valuation),
+      names_(std::move(names)),
+      options_(options),
+      limits_(limits),
+      statistics_(statistics),
+      progression_(problem, free_actions(valuation.prices(), names_, options), allowed(options), limits),
+      labels_(valuation, options.count, options.limits_labels),
+      cutoff_(std::min(valuation.most(), options.upper_bound.value_or(kNoWorth))) {
+    for (const PricedProblem* const priced : valuation_.prices()) {
+        bounds_.emplace_back(progression_.networks(), priced->task_bounds(limits_));
+        heuristics_.push_back(options_.heuristic->make(*priced, limits_));
+    }
+    valuation_.begin(progression_.networks(), limits_);
+    valuation_.set_cutoff(cutoff_);
+}
+
+LabelSearchResult label_search(const AnalysedProblem& problem, Valuation& valuation,
+                               std::vector<std::optional<ActionName>> names, const LabelSearchOptions& options,
+                               Limits& limits, LabelStatistics& statistics) {
+    LabelSearchResult result;
+    const auto stop = run_within_limits([&]() -> std::optional<StopReason> {
+        result = LabelSearch(problem, valuation, std::move(names), options, limits, statistics).run();
+        return result.stop;
+    });
+    result.stop = stop;
+    return result;
+}
+
+LabelSearchResult LabelSearch::run() {
+    LabelSearchResult result;
+    if (!problem_.solvable) {
+        result.is_all = true;
+        return result;
+    }
+    result.stop = run_within_limits([this] { return search(); });
+    const Limits::Grace grace(limits_);
+    const bool is_complete =
+        plans_.size() < options_.count ? !has_left_out_ : open_.is_empty() && !has_pruned_ && !labels_.has_pruned();
+    result.is_all = !result.stop && is_complete;
+    if (result.is_all) {
+        statistics_.lower_bound.reset();
+        statistics_.proven = plans_.size();
+    } else if (!result.stop) {
+        note_proven(cutoff_);
+    }
+    for (const LabelId goal : plans_) {
+        SearchResult plan = trace(goal);
+        if (!plan.cost) {
+            result.stop = result.stop ? result.stop : plan.stop;
+            result.is_all = false;
+            statistics_.proven = std::min<std::size_t>(statistics_.proven, result.plans.size());
+            const Worth worth = labels_[goal].bound;
+            statistics_.lower_bound = std::min(statistics_.lower_bound.value_or(worth), worth);
+            break;
+        }
+        result.plans.push_back(std::move(plan));
+        result.worths.push_back(labels_[goal].bound);
+    }
+    result.statistics = statistics_;
+    return result;
+}
+
+// Search until no open label leads to a plan that is wanted. Says why it was stopped before that.
+std::optional<StopReason> LabelSearch::search() {
+    const NodeId root = labels_.find_node(progression_.initial_state(), progression_.initial_network());
+    for (std::size_t price = 0; price < bounds_.size(); ++price) {
+        labels_.node(root).least[price] = options_.tdg_bound ? bounds_[price][labels_.node(root).network] : 0;
+    }
+    const ValueId start = valuation_.start();
+    const Worth bound = valuation_.bound(start, labels_.to_come(root), 0);
+    if (!is_wanted(bound)) {
+        return std::nullopt;
+    }
+    push(*labels_.add({root, start, ActionLists::kEmpty, LabelId{0}, {}, bound, 0, true, false}));
+    while (!open_.is_empty() && open_.top().priority < cutoff_) {
+        if (const auto stop = limits_.check()) {
+            return stop;
+        }
+        const OpenList<LabelId>::Entry entry = open_.pop();
+        note_proven(entry.priority);
+        if (labels_[entry.id].is_kept && keeps_bound(entry.id)) {
+            expand(entry.id);
+        }
+    }
+    return std::nullopt;
+}
+
+// Raise the label's bound by what is known of its node, or can be found out. Returns whether it stays as it is;
+// otherwise the label goes back into the open list, unless there is no need.
+bool LabelSearch::keeps_bound(LabelId id) {
+    Label& label = labels_[id];
+    LabelSpace::Node& node = labels_.node(label.node);
+    const Worth before = label.bound;
+    for (;;) {
+        label.bound = std::max(before, valuation_.bound(label.value, labels_.to_come(label.node), label.stage));
+        if (label.bound > before) {
+            if (is_wanted(label.bound)) {
+                push(id);
+            }
+            return false;
+        }
+        if (node.asked < heuristics_.size()) {
+            ask(node);
+        } else if (label.stage + 1 < valuation_.stages()) {
+            ++label.stage;
+        } else {
+            return true;
+        }
+    }
+}
+
+// Ask the heuristic at the next prices about the node. What is a dead end at some prices is one at all.
+void LabelSearch::ask(LabelSpace::Node& node) {
+    const std::size_t price = node.asked++;
+    NodeView view = progression_.view(node.state, node.network);
+    view.tdg_bound = bounds_[price][node.network];
+    const std::uint64_t cuts_before = heuristics_[price]->rounds();
+    const auto h = heuristics_[price]->evaluate(view);
+    ++statistics_.evaluated;
+    statistics_.cuts += heuristics_[price]->rounds() - cuts_before;
+    if (!h) {
+        ++statistics_.dead_ends;
+        std::ranges::fill(node.least, kInfinity);
+        node.asked = static_cast<std::uint32_t>(heuristics_.size());
+        return;
+    }
+    node.least[price] = std::max(node.least[price], *h);
+}
+
+void LabelSearch::expand(LabelId id) {
+    labels_[id].is_expanded = true;
+    ++statistics_.expanded;
+    const NodeId node = labels_[id].node;
+    if (!labels_.node(node).is_expanded) {
+        find_edges(node);
+    }
+    for (const Edge& edge : labels_.node(node).edges) {
+        inherit(node, edge);
+        generate(id, edge);
+    }
+}
+
+// All labels of a node have the same successors.
+void LabelSearch::find_edges(NodeId node) {
+    progression_.expand(labels_.node(node).state, labels_.node(node).network, successors_);
+    edges_.clear();
+    for (const Successor& successor : successors_) {
+        const NodeId to = labels_.find_node(successor.state, successor.network);
+        for (std::size_t price = 0; options_.tdg_bound && price < bounds_.size(); ++price) {
+            Cost& least = labels_.node(to).least[price];
+            least = std::max(least, bounds_[price][successor.network]);
+        }
+        edges_.push_back({to, successor.step, successor.action, labels_.store(successor.due_parts)});
+    }
+    labels_.set_edges(node, edges_);
+}
+
+// A plan from the parent that goes on with the edge costs what the edge costs, and what the next node is completed for.
+void LabelSearch::inherit(NodeId parent, const Edge& edge) {
+    if (!options_.inherit_h) {
+        return;
+    }
+    const std::span<const Cost> from = labels_.node(parent).least;
+    const std::span<Cost> to = labels_.node(edge.to).least;
+    for (std::size_t price = 0; price < from.size(); ++price) {
+        to[price] = std::max(to[price], from[price] - valuation_.prices()[price]->cost(edge.action, edge.due_parts));
+    }
+}
+
+void LabelSearch::generate(LabelId parent, const Edge& edge) {
+    ++statistics_.generated;
+    const Label& from = labels_[parent];
+    const ValueId value = edge.action ? valuation_.extend(from.value, *edge.action, edge.due_parts) : from.value;
+    const bool is_plan = progression_.networks().is_empty(labels_.node(edge.to).network);
+    const Worth bound = is_plan ? valuation_.worth(value) : valuation_.bound(value, labels_.to_come(edge.to), 0);
+    // Of a plan it is the worth itself: its parent's bound, a sum in another order, may be off by a rounding error.
+    const Worth known = is_plan ? bound : std::max(bound, from.bound);
+    if (!is_wanted(known)) {
+        return;
+    }
+    const auto id =
+        labels_.add({edge.to, value, list_after(from.actions, edge.action), parent, edge.step, known, 0, true, false});
+    if (!id) {
+        return;
+    }
+    if (is_plan) {
+        add_plan(*id);
+    } else {
+        push(*id);
+    }
+}
+
+// Whether plans of this worth are wanted; notes where there may be some that are not.
+bool LabelSearch::is_wanted(Worth bound) {
+    if (bound < cutoff_) {
+        return true;
+    }
+    if (bound != kNoWorth) {
+        has_pruned_ = true;
+        has_left_out_ = has_left_out_ || plans_.size() < options_.count;
+    }
+    return false;
+}
+
+// Take up a new plan, or one that has become better, among those found. A multiset may lead to several final states.
+void LabelSearch::add_plan(LabelId id) {
+    const Worth worth = labels_[id].bound;
+    const auto same =
+        std::ranges::find_if(plans_, [&](LabelId other) { return labels_[other].actions == labels_[id].actions; });
+    if (same != plans_.end()) {
+        if (labels_[*same].bound <= worth) {
+            return;
+        }
+        plans_.erase(same);
+    }
+    plans_.insert(std::ranges::upper_bound(plans_, worth, {}, [this](LabelId other) { return labels_[other].bound; }),
+                  id);
+    if (plans_.size() > options_.count) {
+        plans_.pop_back();
+        has_pruned_ = true;
+    }
+    statistics_.found = plans_.size();
+    statistics_.best = labels_[plans_.front()].bound;
+    if (plans_.size() == options_.count) {
+        cutoff_ = std::min(cutoff_, valuation_.better_than(labels_[plans_.back()].bound));
+        valuation_.set_cutoff(cutoff_);
+    }
+    count_proven();
+}
+
+// Every plan that is worth less than `bound` has been found.
+void LabelSearch::note_proven(Worth bound) {
+    statistics_.lower_bound = std::max(statistics_.lower_bound.value_or(bound), bound);
+    count_proven();
+}
+
+void LabelSearch::count_proven() {
+    while (statistics_.lower_bound && statistics_.proven < plans_.size() &&
+           labels_[plans_[statistics_.proven]].bound <= *statistics_.lower_bound) {
+        ++statistics_.proven;
+    }
+}
+
+// The list of the actions after a step, which executed one or none. All lists are one where any plan will do.
+ActionListId LabelSearch::list_after(ActionListId before, std::optional<ActionId> action) {
+    if (options_.count == 1 || !action || !names_[*action]) {
+        return before;
+    }
+    const ActionName name = *names_[*action];
+    return options_.tells_sequences() ? lists_.append(before, name) : lists_.insert(before, name);
+}
+
+void LabelSearch::push(LabelId id) {
+    const Label& label = labels_[id];
+    const Cost tie_break = valuation_.tie_break(label.value, labels_.to_come(label.node));
+    open_.push(id, label.bound, tie_break, progression_.networks().size(labels_.node(label.node).network));
+}
+
+SearchResult LabelSearch::trace(LabelId goal) {
+    std::vector<SearchStep> steps;
+    for (LabelId id = goal; labels_[id].parent != id; id = labels_[id].parent) {
+        steps.push_back(labels_[id].step);
+    }
+    std::reverse(steps.begin(), steps.end());
+    SearchResult result;
+    trace_steps(*valuation_.prices().front(), progression_, steps, limits_, result);
+    return result;
+}
+
+}  // namespace relax
