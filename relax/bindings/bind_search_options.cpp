@@ -106,6 +106,7 @@ void bind_search_options(nb::module_& module) {
                             .def_rw("count", &relax::LabelSearchOptions::count)
                             .def_rw("distinct", &relax::LabelSearchOptions::distinct)
                             .def_rw("upper_bound", &relax::LabelSearchOptions::upper_bound)
+                            .def_rw("tolerance", &relax::LabelSearchOptions::tolerance)
                             .def_rw("tdg_bound", &relax::LabelSearchOptions::tdg_bound)
                             .def_rw("inherit_h", &relax::LabelSearchOptions::inherit_h)
                             .def_rw("limits_labels", &relax::LabelSearchOptions::limits_labels);

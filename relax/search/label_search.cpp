@@ -1,6 +1,7 @@
 #include "relax/search/label_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "relax/search/plan_trace.hpp"
@@ -263,10 +264,19 @@ void LabelSearch::add_plan(LabelId id) {
     statistics_.found = plans_.size();
     statistics_.best = labels_[plans_.front()].bound;
     if (plans_.size() == options_.count) {
-        cutoff_ = std::min(cutoff_, valuation_.better_than(labels_[plans_.back()].bound));
+        cutoff_ = std::min(cutoff_, better_than(labels_[plans_.back()].bound));
         valuation_.set_cutoff(cutoff_);
     }
     count_proven();
+}
+
+// Besides a plan of this worth those are wanted that are worth less than what is returned.
+Worth LabelSearch::better_than(Worth worth) const {
+    if (options_.tolerance == 0) {
+        return worth;
+    }
+    const double value = value_of(worth);
+    return order_of(value - options_.tolerance * std::max(1.0, std::abs(value)));
 }
 
 // Every plan that is worth less than `bound` has been found.

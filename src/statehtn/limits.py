@@ -7,7 +7,7 @@ import os
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import FrameType
 
 from statehtn.errors import UsageError
@@ -94,6 +94,13 @@ class Limits:
             None if self.memory_mb is None else max(self.memory_mb, resident_mb() + self.memory_mb / 20),
             self.steps,
         )
+
+    def for_a_part(self, share: float) -> Limits:
+        """Return limits that leave so much of the time that is left, between 0 and 1; the other limits are the same."""
+        if self.deadline is None:
+            return self
+        now = time.monotonic()
+        return replace(self, deadline=now + max(0.0, self.deadline - now) * share)
 
     def left(self) -> tuple[float | None, int | None, int | None]:
         """Return what is left of the time, in seconds, the memory in bytes, and the steps, as the core takes them."""

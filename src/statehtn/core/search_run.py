@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from typing import Generic, TypeVar
 
 import statehtn._relax as _relax
-from statehtn.core.grounding import STOPPED
+from statehtn.core.grounding import STOPPED, Grounding
 from statehtn.core.pricing import PricedProblem
 from statehtn.core.progress import SearchProgress
 from statehtn.core.scale import Scale
@@ -77,22 +77,20 @@ class SearchOutcome:
 
 
 class SearchRun(ABC, Generic[P, S]):
-    """Searches for the plans of a priced problem, one after the other: the effort and the best bound of all of them.
+    """Searches for the plans of a problem, one after the other: the effort and the best bound of all of them.
 
     Args:
-        problem: the problem and its prices.
+        grounding: the ground problem.
         limits: they hold for all searches together.
         progress: is called while a search goes on.
     """
 
-    def __init__(self, problem: PricedProblem, limits: Limits, progress: Callable[[P], None] | None) -> None:
-        self.problem = problem
-        self.prices = problem.on(Scale.first(problem.bounds()))
+    def __init__(self, grounding: Grounding, limits: Limits, progress: Callable[[P], None] | None) -> None:
         self.limits = limits
         self.progress = progress
         self.started = time.monotonic()
-        self.reader = TraceReader(problem.grounding)
-        self.bound: float | None = None  # of the risk cost of plans, whatever the scale it was proven on
+        self.reader = TraceReader(grounding)
+        self.bound: float | None = None  # of what plans are worth, whatever the scale it was proven on
         self.stopped: Status | None = None
         self.effort = SearchEffort()
         self.unread = False
@@ -101,6 +99,10 @@ class SearchRun(ABC, Generic[P, S]):
     def watch(self) -> Callable[[S], None] | None:
         """What the core calls while it searches."""
         return None if self.progress is None else self._report
+
+    @abstractmethod
+    def value_of(self, worth: int) -> float:
+        """Return what a worth of the present search is in the unit of the objective."""
 
     @abstractmethod
     def progress_of(self, statistics: S, seconds: float, effort: SearchEffort, bound: float | None) -> P:
@@ -118,10 +120,28 @@ class SearchRun(ABC, Generic[P, S]):
         self.effort += effort_of(statistics)
         self.stopped = None if stop is None else STOPPED[stop]
 
-    def bound_with(self, units: int | None) -> float | None:
-        """Return the best lower bound of all searches and one in units of the present scale."""
-        bound = None if units is None else self.prices.scale.cost(units)
+    def bound_with(self, worth: int | None) -> float | None:
+        """Return the best lower bound of all searches and one of the present search."""
+        bound = None if worth is None else self.value_of(worth)
         return max((known for known in (self.bound, bound) if known is not None), default=None)
+
+    def _report(self, statistics: S) -> None:
+        assert self.progress is not None
+        seconds, effort = time.monotonic() - self.started, self.effort + effort_of(statistics)
+        self.progress(self.progress_of(statistics, seconds, effort, self.bound_with(statistics.lower_bound)))
+
+
+class PricedRun(SearchRun[P, S]):
+    """Searches for plans whose actions have prices that add up, on one scale of prices after the other."""
+
+    def __init__(self, problem: PricedProblem, limits: Limits, progress: Callable[[P], None] | None) -> None:
+        super().__init__(problem.grounding, limits, progress)
+        self.problem = problem
+        self.prices = problem.on(Scale.first(problem.bounds()))
+
+    def value_of(self, worth: int) -> float:
+        """Return an amount of units as a cost in the domain's own unit."""
+        return self.prices.scale.cost(worth)
 
     def rescale(self, scale: Scale) -> bool:
         """Go on with another scale; returns whether it is another one."""
@@ -129,11 +149,6 @@ class SearchRun(ABC, Generic[P, S]):
             return False
         self.prices = self.problem.on(scale)
         return True
-
-    def _report(self, statistics: S) -> None:
-        assert self.progress is not None
-        seconds, effort = time.monotonic() - self.started, self.effort + effort_of(statistics)
-        self.progress(self.progress_of(statistics, seconds, effort, self.bound_with(statistics.lower_bound)))
 
 
 def effort_of(statistics: _relax.SearchStatistics) -> SearchEffort:

@@ -10,7 +10,7 @@ import statehtn._relax as _relax
 from statehtn.core.pricing import PricedProblem, PricedTrace
 from statehtn.core.progress import Progress
 from statehtn.core.scale import MOST_UNITS, TOLERANCE, Scale, worth_while
-from statehtn.core.search_run import SearchOutcome, SearchRun, TracedPlans
+from statehtn.core.search_run import PricedRun, SearchOutcome, TracedPlans
 from statehtn.effort import SearchEffort
 from statehtn.limits import Limits
 from statehtn.model.status import Status
@@ -27,7 +27,7 @@ _STATUSES = {
 Options = _relax.FindPlansOptions | _relax.PlanBasedOptions | _relax.PortfolioOptions
 
 
-class StagedRun(SearchRun[Progress, _relax.SearchStatistics]):
+class StagedRun(PricedRun[Progress, _relax.SearchStatistics]):
     """The stages of a search: the best plan so far, and a bound of the risk cost of every plan."""
 
     def __init__(

@@ -39,6 +39,11 @@ class TopSwitches(BoundSwitches):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LabelSwitches(TopSwitches):
+    """Refinements of the search by an objective whose label is not one price; each family has its own."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SearchSwitches(BoundSwitches):
     """Refinements of the search for one plan; greedy search has those of every search alone."""
 

@@ -6,11 +6,11 @@ import math
 from collections.abc import Callable
 
 import statehtn._relax as _relax
-from statehtn.core.grounding import Grounding
+from statehtn.core.action_names import action_names
 from statehtn.core.pricing import PricedProblem, PricedTrace
 from statehtn.core.progress import TopProgress
 from statehtn.core.scale import TOLERANCE, Scale
-from statehtn.core.search_run import SearchOutcome, SearchRun, TracedPlans
+from statehtn.core.search_run import PricedRun, SearchOutcome, TracedPlans
 from statehtn.effort import SearchEffort
 from statehtn.limits import Limits
 from statehtn.model.status import Status
@@ -19,7 +19,7 @@ Key = tuple[int, ...]
 """What no two plans have in common: their actions, in the order of their execution or sorted."""
 
 
-class TopRun(SearchRun[TopProgress, _relax.LabelStatistics]):
+class TopRun(PricedRun[TopProgress, _relax.LabelStatistics]):
     """The best plans that are known, in the order of their costs, and a bound of all others.
 
     `bound` holds for every plan that is not among the `plans`, on whatever scale it was proven: a search proves it of
@@ -35,7 +35,7 @@ class TopRun(SearchRun[TopProgress, _relax.LabelStatistics]):
         progress: Callable[[TopProgress], None] | None,
     ) -> None:
         super().__init__(problem, limits, progress)
-        self.action_names = _action_names(problem.grounding)
+        self.action_names = action_names(problem.grounding)
         self.options = options
         self.plans: list[PricedTrace] = []
         self._found: dict[Key, PricedTrace] = {}
@@ -95,15 +95,3 @@ class TopRun(SearchRun[TopProgress, _relax.LabelStatistics]):
         names = (self.action_names[action] for action in plan.actions)
         own = [name for name in names if name is not None]
         return tuple(own if self.options.distinct == _relax.Distinct.Sequence else sorted(own))
-
-
-def _action_names(grounding: Grounding) -> list[int | None]:
-    """Return a number for every ground action, the same for the cases of one action; None for a precondition action."""
-    numbers: dict[tuple[int, tuple[int, ...]], int] = {}
-    handle = grounding.handle
-    return [
-        None
-        if grounding.encoding.actions[schema] is None
-        else numbers.setdefault((schema, tuple(handle.action_arguments(action))), len(numbers))
-        for action, schema in enumerate(handle.action_schema)
-    ]

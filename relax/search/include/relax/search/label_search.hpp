@@ -67,6 +67,7 @@ private:
     void generate(LabelId parent, const Edge& edge);
     bool is_wanted(Worth bound);
     void add_plan(LabelId id);
+    Worth better_than(Worth worth) const;
     void note_proven(Worth bound);
     void count_proven();
     void push(LabelId id);

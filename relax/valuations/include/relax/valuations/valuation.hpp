@@ -62,8 +62,6 @@ public:
 
     // Plans from this worth on are not told from each other.
     virtual Worth most() const { return kNoWorth; }
-    // Which plans are wanted besides one of this worth: those that are worth less than what is returned.
-    virtual Worth better_than(Worth worth) const { return worth; }
     // From now on only plans are wanted that are worth less.
     virtual void set_cutoff(Worth /*cutoff*/) {}
 };

@@ -1,0 +1,176 @@
+"""The stages of a search by an objective whose label is not one price: the best plans, and a bound of all others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import statehtn._relax as _relax
+from statehtn.core.action_names import action_names
+from statehtn.core.grounding import Grounding
+from statehtn.core.labels import Labels
+from statehtn.core.progress import Progress, SearchProgress, TopProgress
+from statehtn.core.search_run import SearchOutcome, SearchRun, TracedPlans
+from statehtn.effort import SearchEffort
+from statehtn.limits import LimitReached, Limits
+from statehtn.model.status import Status
+from statehtn.risk.keep import Keep
+
+Key = tuple[int, ...]
+"""What no two plans have in common: their actions, in the order of their execution or sorted."""
+
+
+@dataclass(frozen=True, slots=True)
+class ValuedTrace:
+    """A plan that the core has found, and its exact value."""
+
+    trace: _relax.SearchResult
+    value: float
+
+
+class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
+    """The best plans that are known, in the order of their values, and a bound of all others.
+
+    Searches with a single price for each action come first where one plan is wanted: their plans are incumbents. Then
+    label searches, on one grid after the other: on each, no plan has a worth above its value, so that what is proven on
+    any of them holds. Plans are compared by their exact values, by which they keep their budgets, too.
+
+    Args:
+        grounding: the ground problem.
+        labels: the valuation of the objective.
+        options: what the core is asked for; `count` plans.
+        keep: budgets that plans must keep.
+        precision: how much of its value, or of 1 if that is more, a plan may be worse than what is proven.
+        limits: they hold for all searches together.
+        progress: is called while a search goes on.
+    """
+
+    def __init__(
+        self,
+        grounding: Grounding,
+        labels: Labels,
+        options: _relax.LabelSearchOptions,
+        keep: Sequence[Keep],
+        precision: float,
+        limits: Limits,
+        progress: Callable[[SearchProgress], None] | None,
+    ) -> None:
+        super().__init__(grounding, limits, progress)
+        self.grounding = grounding
+        self.labels = labels
+        self.options = options
+        self.keep = keep
+        self.precision = precision
+        self.names = action_names(grounding)
+        self.plans: list[ValuedTrace] = []
+        self._found: dict[Key, ValuedTrace] = {}
+        options.tolerance = precision / 2 if labels.worths_are_values else 0.0
+
+    @property
+    def proven(self) -> int:
+        """How many plans, counted from the first, are proven to be the best, within the precision."""
+        bound = self.bound
+        return 0 if bound is None else sum(plan.value - bound <= self._slack(plan.value) for plan in self.plans)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether something has ended the run, or nothing is left to prove."""
+        is_full = len(self.plans) == self.options.count
+        return self.stopped is not None or self.bound == math.inf or (is_full and self.proven == len(self.plans))
+
+    def outcomes(self) -> Iterator[SearchOutcome]:
+        """Go through the stages, and yield an outcome after every one that found a better plan, and at the end.
+
+        All but the last have the status `SOLVED`.
+        """
+        try:
+            for is_better in self._stages():
+                if self.is_done:
+                    break
+                if is_better:
+                    yield replace(self.outcome(), status=Status.SOLVED)
+        except LimitReached as reached:
+            self.stopped = reached.status
+        yield self.outcome()
+
+    def _stages(self) -> Iterator[bool]:
+        """Go through the stages; yield whether each has found a better plan."""
+        if self.options.count == 1:
+            for support in self.labels.support(self.limits):
+                self.effort += support.effort
+                self.stopped = support.stopped
+                bound = math.inf if support.unsolvable else support.bound
+                self.bound = max((known for known in (self.bound, bound) if known is not None), default=None)
+                yield self._take_up(support.traces)
+        yield self.search()
+        while self.labels.refine(self.limits):
+            yield self.search()
+
+    def search(self) -> bool:
+        """Search on the present grid; returns whether a better plan was found."""
+        self.options.upper_bound = None
+        if self.options.count == 1 and self.plans:
+            best = self.plans[0].value
+            self.options.upper_bound = self.labels.worth_of(best - self._slack(best) / 2)
+        problem, valuation = self.grounding.handle, self.labels.valuation
+        result = _relax.label_search(problem, valuation, self.names, self.options, *self.limits.left(), self.watch)
+        self.take(result.statistics, result.stop)
+        self.unread = len(result.plans) < result.statistics.found
+        self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)
+        return self._take_up(result.plans)
+
+    def outcome(self) -> SearchOutcome:
+        """Return how the searches ended together."""
+        is_all = self.bound == math.inf
+        bound = None if is_all else self.bound
+        if bound is not None and len(self.plans) == self.options.count:
+            bound = min(bound, self.plans[-1].value)
+        if self.plans:
+            is_proven = is_all or self.proven == len(self.plans)
+            is_optimal = is_proven and self.stopped is None and not self.unread
+            status = Status.OPTIMAL if is_optimal else Status.SOLVED
+            bound = self.plans[-1].value if is_all and self.options.count == 1 else bound
+        else:
+            status = self.stopped or (Status.UNSOLVABLE if is_all else Status.GAVE_UP)
+        plans = TracedPlans(self.reader, [plan.trace for plan in self.plans])
+        return SearchOutcome(status, self.stopped, plans, bound, self.effort, self.proven, is_all, self.unread)
+
+    def value_of(self, worth: int) -> float:
+        """Return the value that a worth of the present search stands for."""
+        return self.labels.value_of(worth)
+
+    def progress_of(
+        self, statistics: _relax.LabelStatistics, seconds: float, effort: SearchEffort, bound: float | None
+    ) -> SearchProgress:
+        """Return what the user's callback is told while a search goes on."""
+        if self.options.count > 1:
+            found, proven = max(len(self.plans), statistics.found), max(self.proven, statistics.proven)
+            return TopProgress(seconds, effort, bound, found, proven)
+        best = self.plans[0].value if self.plans else None
+        if statistics.best is not None:
+            best = min(self.value_of(statistics.best), math.inf if best is None else best)
+        return Progress(seconds, effort, bound if best is None or bound is None else min(bound, best), best)
+
+    def _take_up(self, traces: Sequence[_relax.SearchResult]) -> bool:
+        """Take up plans that were found and keep their budgets; returns whether the best is a better one."""
+        before = self.plans[0].value if self.plans else math.inf
+        for trace in traces:
+            if trace.cost is None or not self._keeps_budgets(trace):
+                continue
+            key, plan = self._key(trace), ValuedTrace(trace, self.labels.value(trace))
+            known = self._found.setdefault(key, plan)
+            if plan.value < known.value:
+                self._found[key] = plan
+        self.plans = sorted(self._found.values(), key=lambda plan: plan.value)[: self.options.count]
+        return bool(self.plans) and self.plans[0].value < before
+
+    def _keeps_budgets(self, trace: _relax.SearchResult) -> bool:
+        return not self.keep or all(budget.holds(self.labels.law(trace)) for budget in self.keep)
+
+    def _slack(self, value: float) -> float:
+        return self.precision * max(1.0, abs(value))
+
+    def _key(self, trace: _relax.SearchResult) -> Key:
+        own = [name for action in trace.actions if (name := self.names[action]) is not None]
+        return tuple(own if self.options.distinct == _relax.Distinct.Sequence else sorted(own))

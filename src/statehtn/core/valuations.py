@@ -1,0 +1,45 @@
+"""Which valuation in the core stands for an objective."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+from statehtn.core.grounding import Grounding
+from statehtn.core.labels import Labels
+from statehtn.core.price_labels import PriceLabels
+from statehtn.core.switches import LabelSwitches
+from statehtn.errors import UnsupportedError
+from statehtn.limits import Limits
+from statehtn.risk import Exponential, Neutral, Utility
+from statehtn.risk.keep import Keep
+from statehtn.risk.objective import Objective
+
+Constructor = Callable[[Grounding, Any, LabelSwitches, Limits], Labels]
+
+
+def _prices(grounding: Grounding, objective: Utility, _: LabelSwitches, limits: Limits) -> Labels:
+    return PriceLabels(grounding, objective, limits)
+
+
+VALUATIONS: Mapping[type, Constructor] = MappingProxyType({Neutral: _prices, Exponential: _prices})
+"""By the class of an objective: how its labels are made."""
+
+
+def labels_of(
+    grounding: Grounding, objective: Objective, keep: Sequence[Keep], switches: LabelSwitches, limits: Limits
+) -> Labels:
+    """Return how plans are compared in the core by an objective, of those that keep budgets.
+
+    Raises:
+        UnsupportedError: there is no label search by it, or with budgets.
+        InputError: a cost has no finite price for it; the message names the action.
+        LimitReached: a limit was reached.
+    """
+    make = VALUATIONS.get(type(objective))
+    if make is None:
+        raise UnsupportedError(f"there is no label search by the objective '{objective}'")
+    if keep:
+        raise UnsupportedError("there is no label search with budgets to keep")
+    return make(grounding, objective, switches, limits)
