@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Callable
 from decimal import Decimal
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +87,33 @@ def calls(folder: Path) -> dict[str, Call]:
         "read_costs": (statehtn.read_costs, [folder / "c"], {}),
         "CostTable.apply": (statehtn.read_costs(folder / "c").apply, [problem], {}),
         "tabulate_costs": (statehtn.tabulate_costs, [problem], {}),
+        "objective": (statehtn.objective, ["cvar 0.95"], {}),
+        **{
+            text: (partial(value_of, kind), [*given], {})
+            for text, kind, *given in (
+                ("MeanVariance", statehtn.MeanVariance, 0.5),
+                ("OneSwitch", statehtn.OneSwitch, 0.5, 1.0, 3.0),
+                ("Exponentials", statehtn.Exponentials, 1.0, [(0.5, 2.0)]),
+                ("MeanDeviation", statehtn.MeanDeviation, 0.5),
+                ("EntropicValueAtRisk", statehtn.EntropicValueAtRisk, 0.5),
+                ("Deadline", statehtn.Deadline, 3.0),
+                ("Overrun", statehtn.Overrun, 3.0),
+                ("Piecewise", statehtn.Piecewise, [(0, 0), (3, -1)]),
+                ("Quantile", statehtn.Quantile, 0.5),
+                ("ConditionalValueAtRisk", statehtn.ConditionalValueAtRisk, 0.5),
+                ("MeanCvar", statehtn.MeanCvar, 0.5, 0.5),
+                ("CallableUtility", statehtn.CallableUtility, lambda cost: -cost),
+            )
+        },
+        "Keep": (statehtn.Keep, [25.0, 0.95], {}),
+        "Keep.of": (statehtn.Keep.of, ["25 0.95"], {}),
+        "keep.holds": (statehtn.Keep(25.0, 0.95).holds, [CostDistribution.certain(2)], {}),
+        "cvar.value": (statehtn.objective("cvar 0.95").value, [CostDistribution.certain(2)], {}),
+        "law.expectation": (CostDistribution.certain(2).expectation, [lambda cost: cost], {}),
+        "law.expected_overrun": (CostDistribution.certain(2).expected_overrun, [3.0], {}),
+        "law.semi_deviation": (CostDistribution.certain(2).semi_deviation, [3.0], {}),
+        "law.entropic": (CostDistribution.certain(2).entropic, [3.0], {}),
+        "law.evar": (CostDistribution.certain(2).evar, [0.5], {}),
         "utility_for": (statehtn.utility_for, ["averse", 1.0], {}),
         "Exponential": (statehtn.Exponential, [statehtn.Attitude.AVERSE, 0.5], {}),
         "with_cost": (statehtn.with_cost, [problem, "take-car", 3.0], {"when": None}),
@@ -169,6 +197,11 @@ def calls_of_other_libraries() -> dict[str, Call]:
         "law.plot": (CostDistribution.certain(2).plot, [None], {}),
         "tree.plot": (plan.decomposition.plot, [None], {}),
     }
+
+
+def value_of(kind: Callable[..., statehtn.Objective], *given: object) -> float:
+    """Make an objective, and ask it for the value of a cost."""
+    return kind(*given).value(CostDistribution.of([(0.5, 1), (0.5, 4)]))
 
 
 def failures(name: str, call: Call) -> list[str]:

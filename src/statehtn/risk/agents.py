@@ -8,6 +8,7 @@ from statehtn.errors import UsageError
 from statehtn.expected import number, one_of
 from statehtn.risk.exponential import Exponential
 from statehtn.risk.neutral import Neutral
+from statehtn.risk.objective import Objective
 from statehtn.risk.utility import Attitude, AttitudeName, Utility
 
 
@@ -65,12 +66,20 @@ def agents_of(attitudes: Iterable[Attitude | AttitudeName], alphas: Iterable[flo
     )
 
 
+def agent_in(objective: Objective) -> Utility | None:
+    """Return the agent that the paper knows whose objective this is: neutral, averse or seeking; None for another."""
+    return objective if isinstance(objective, Neutral | Exponential) else None
+
+
 def agent_order(agent: Utility) -> tuple[float, str]:
     """Return what agents are sorted by: from the most averse over the neutral to the most seeking."""
     sign = {Attitude.AVERSE: -1.0, Attitude.SEEKING: 1.0}.get(agent.attitude, 0.0)
     return sign * (agent.alpha or 0.0), str(agent.attitude)
 
 
-def agent_name(agent: Utility) -> str:
-    """Return the name of an agent, such as `neutral` or `averse 0.9`."""
+def agent_name(objective: Objective) -> str:
+    """Return what an objective is called among others, such as `neutral`, `averse 0.9` or `cvar 0.95`."""
+    agent = agent_in(objective)
+    if agent is None:
+        return str(objective)
     return str(agent.attitude) if agent.alpha is None else f"{agent.attitude} {agent.alpha:g}"

@@ -9,15 +9,16 @@ from collections.abc import Iterable, Sequence
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
 from statehtn.risk.neutral import Neutral
+from statehtn.risk.objective import AdditiveObjective
 from statehtn.risk.utility import DIGITS, Utility
 
 
-def plan_risk_cost(laws: Iterable[CostLaw], utility: Utility) -> float:
+def plan_risk_cost(laws: Iterable[CostLaw], objective: AdditiveObjective) -> float:
     """Return the certainty-equivalent cost of a plan: the sum of those of its actions, positive, in the domain's unit.
 
     Source: the logarithm of the paper's equation 5 (Theorem 1), or its equation 7 for the neutral attitude.
     """
-    return math.fsum(utility.risk_cost(law) for law in laws)
+    return math.fsum(objective.risk_cost(law) for law in laws)
 
 
 def plan_expected_cost(laws: Iterable[CostLaw]) -> float:

@@ -15,6 +15,8 @@ from statehtn.errors import UsageError
 from statehtn.expected import number, whole_number
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_law
+from statehtn.risk.checks import text_of
+from statehtn.risk.objective import ValueUnit
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
 
 DOUBLE_DIGITS = 15
@@ -24,6 +26,8 @@ _MANY_DIGITS = Context(prec=60)
 @dataclass(frozen=True, slots=True)
 class Exponential:
     """The exponential utility of an averse or a seeking agent; the larger alpha, the more it cares about risk.
+
+    The value is the certainty-equivalent cost (`risk_cost`).
 
     Args:
         attitude: averse or seeking.
@@ -35,6 +39,9 @@ class Exponential:
 
     attitude: Attitude
     alpha: float
+
+    unit = ValueUnit.COST
+    monotone = True
 
     def __post_init__(self) -> None:
         if self.attitude not in (Attitude.AVERSE, Attitude.SEEKING):
@@ -58,6 +65,11 @@ class Exponential:
         return PlanUtility.PRODUCT
 
     @property
+    def concave(self) -> bool:
+        """True for an averse agent."""
+        return self.attitude == Attitude.AVERSE
+
+    @property
     def slope(self) -> float:
         """Alpha of an averse agent, minus alpha of a seeking one: that of the exponential mean which is its price."""
         return self.alpha if self.attitude == Attitude.AVERSE else -self.alpha
@@ -73,6 +85,10 @@ class Exponential:
             InputError: it is infinite, or cannot be computed; never for a list of outcomes.
         """
         return expect_law(law).exponential_mean(self.slope)
+
+    def value(self, law: CostLaw) -> float:
+        """Return the certainty-equivalent cost; see `risk_cost`."""
+        return self.risk_cost(law)
 
     def utility(self, cost: float) -> float:
         """Return the utility of a certain cost: averse `-e^(alpha C) / alpha`, seeking `e^(-alpha C) / alpha`."""
@@ -111,6 +127,9 @@ class Exponential:
             _MANY_DIGITS.log10(Decimal(self.alpha)),
         )
         return ("-" if averse else "") + _power_of_ten(log10_size, max(1, min(digits, carried)))
+
+    def __str__(self) -> str:
+        return f"{self.attitude} {text_of(self.alpha)}"
 
 
 def _power_of_ten(log10: Decimal, digits: int) -> str:

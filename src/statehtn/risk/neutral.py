@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from statehtn.expected import number, whole_number
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_law
+from statehtn.risk.objective import ValueUnit
 from statehtn.risk.utility import DIGITS, Attitude, FunctionType, PlanUtility
 
 DOUBLE_DIGITS = 17
@@ -16,8 +17,12 @@ DOUBLE_DIGITS = 17
 class Neutral:
     """The linear utility `-cost` (paper equation 1, first case).
 
-    Costs are positive, in the domain's unit, and minimised.
+    Costs are positive, in the domain's unit, and minimised. The value is the expected cost.
     """
+
+    unit = ValueUnit.COST
+    monotone = True
+    concave = True
 
     @property
     def attitude(self) -> Attitude:
@@ -46,9 +51,11 @@ class Neutral:
 
     def risk_cost(self, law: CostLaw) -> float:
         """Return the expected cost."""
-        expect_law(law)
-        # Rounding, or probabilities that sum to 1 + 1e-10, must not leave the range.
-        return min(max(law.mean, law.least), law.most)
+        return expected_cost(expect_law(law))
+
+    def value(self, law: CostLaw) -> float:
+        """Return the expected cost."""
+        return self.risk_cost(law)
 
     def utility(self, cost: float) -> float:
         """Return minus the cost: the utility is linear."""
@@ -61,3 +68,11 @@ class Neutral:
         """Return minus the expected cost as a decimal number."""
         shown = min(max(1, whole_number(digits, "the number of digits")), DOUBLE_DIGITS)
         return format(0.0 - number(risk_cost, "a risk cost"), f".{shown}g")
+
+    def __str__(self) -> str:
+        return "neutral"
+
+
+def expected_cost(law: CostLaw) -> float:
+    """Return the mean of a law, within its range, which rounding or probabilities that sum to 1 + 1e-10 could leave."""
+    return min(max(law.mean, law.least), law.most)

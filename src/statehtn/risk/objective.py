@@ -12,7 +12,7 @@ class ValueUnit(StrEnum):
     """The unit of an objective's values."""
 
     COST = "cost"
-    """The domain's own; a certain cost has itself as its value."""
+    """The domain's own. A certain cost has itself as its value, but for overruns."""
     PROBABILITY = "probability"
     UTILITY = "utility"
     """Minus the expected utility."""
@@ -51,3 +51,31 @@ class Objective(Protocol):
     def __str__(self) -> str:
         """Return the text form."""
         ...
+
+
+@runtime_checkable
+class AdditiveObjective(Objective, Protocol):
+    """An objective whose value is a sum over the actions: every action has a price of its own, `risk_cost`.
+
+    The price is the value of the action's law; objectives whose values do not add up have no such method.
+    """
+
+    def risk_cost(self, law: CostLaw) -> float:
+        """Return the price of a cost: to be minimised, in its unit, additive over independent costs.
+
+        Raises:
+            InputError: it is infinite, or cannot be computed.
+        """
+        ...
+
+
+def certainty_equivalent(objective: Objective, law: CostLaw) -> float | None:
+    """Return the certain cost that an objective values as much as a law; None where there is none, or no single one.
+
+    It is the value itself where that is a cost, and what the objective says where it has a method of this name.
+    """
+    own = getattr(objective, "certainty_equivalent", None)
+    if own is not None:
+        found: float | None = own(law)
+        return found
+    return objective.value(law) if objective.unit == ValueUnit.COST else None

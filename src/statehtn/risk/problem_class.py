@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from statehtn.errors import UsageError
-from statehtn.risk.utility import FunctionType, PlanUtility, Utility
+from statehtn.risk.objective import Objective
+from statehtn.risk.utility import FunctionType, PlanUtility
 
 PLANNING_TYPES = {"state": "S", "plan": "P"}
 """The RA-parameter `i` of every solver."""
@@ -32,22 +33,30 @@ class RiskProblemClass:
     n: PlanUtility
 
     def __str__(self) -> str:
-        return f"P{self.i}{self.j}{self.k}{self.l:d}{self.m}{self.n:d}"
+        n = "*" if self.n == PlanUtility.TRAJECTORIES else f"{self.n:d}"
+        return f"P{self.i}{self.j}{self.k}{self.l:d}{self.m}{n}"
 
 
-def problem_class(solver: str, utility: Utility) -> RiskProblemClass:
-    """Return the class of problems that a solver solves with a utility: one effect per action, a static attitude.
+def problem_class(solver: str, objective: Objective) -> RiskProblemClass | None:
+    """Return the class of problems that a solver solves for an objective: one effect per action.
+
+    The objective says what it is by `function_type`, `allows_segmentation` and `plan_utility`, and by `is_dynamic` if
+    its attitude changes with what is left. One without `plan_utility` is a measure of risk that is no expected utility
+    (a quantile, say), and outside of the paper's classes: None.
 
     Raises:
         UsageError: there is no such solver.
     """
     if solver not in PLANNING_TYPES:
         raise UsageError(f"unknown solver '{solver}'; there are {', '.join(PLANNING_TYPES)}")
+    plan_utility = getattr(objective, "plan_utility", None)
+    if plan_utility is None:
+        return None
     return RiskProblemClass(
         i=PLANNING_TYPES[solver],
         j="1",
-        k=0,
-        l=utility.function_type,
-        m=int(utility.allows_segmentation),
-        n=utility.plan_utility,
+        k=int(getattr(objective, "is_dynamic", False)),
+        l=getattr(objective, "function_type", FunctionType.OTHER),
+        m=int(getattr(objective, "allows_segmentation", False)),
+        n=plan_utility,
     )

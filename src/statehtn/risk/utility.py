@@ -10,6 +10,7 @@ from enum import IntEnum, StrEnum
 from typing import Literal, Protocol
 
 from statehtn.model.cost.law import CostLaw
+from statehtn.risk.objective import AdditiveObjective
 
 DIGITS = 10
 """Significant digits of a printed expected utility: enough for every value in the paper's tables."""
@@ -42,9 +43,11 @@ class PlanUtility(IntEnum):
     """Paper equation 5: a product over segments, `(alpha / a)^(s - 1) EU(o_1) ... EU(o_s)`."""
     SUM = 1
     """Paper equation 7: `EU(o_1) + ... + EU(o_s)`."""
+    TRAJECTORIES = 2
+    """Paper equation 4, written `*`: the sum over all trajectories, which no values of single actions determine."""
 
 
-class Utility(Protocol):
+class Utility(AdditiveObjective, Protocol):
     """A utility function of the total cost under which every action has a price of its own.
 
     The price is `risk_cost`, the certainty-equivalent cost: the certain cost that the agent likes exactly as much as

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate
 from operator import mul
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError, UsageError
 from statehtn.expected import expect, number, shown, whole_number
-from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_probability
+from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_function, checked_probability
 from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
 
 if TYPE_CHECKING:
@@ -119,8 +119,13 @@ class CostDistribution(CostLaw):
     @property
     def standard_deviation(self) -> float:
         """The standard deviation of the cost, in the domain's unit."""
+        return math.sqrt(self.variance)
+
+    @property
+    def variance(self) -> float:
+        """The variance of the cost, in the square of the domain's unit."""
         mean = self.mean
-        return math.sqrt(math.fsum(probability * (cost - mean) ** 2 for probability, cost in self.outcomes))
+        return math.fsum(probability * (cost - mean) ** 2 for probability, cost in self.outcomes)
 
     @property
     def least(self) -> float:
@@ -185,6 +190,11 @@ class CostDistribution(CostLaw):
     def exponential_mean_error(self, slope: float) -> float:  # noqa: ARG002
         """Return 0: it is exact but for rounding."""
         return 0.0
+
+    def expectation(self, function: Callable[[float], float]) -> float:
+        """Return the expected value of a function of the cost, as a sum over the outcomes."""
+        called = checked_function(function)
+        return math.fsum(probability * called(cost) for probability, cost in self.outcomes)
 
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""

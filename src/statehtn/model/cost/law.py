@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
 from statehtn.counted import brief
-from statehtn.errors import UsageError
-from statehtn.expected import number
+from statehtn.errors import StateHtnError, UsageError
+from statehtn.expected import number, shown
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
     from numpy import float64
     from numpy.random import Generator
@@ -36,6 +39,11 @@ class CostLaw(ABC):
     @abstractmethod
     def standard_deviation(self) -> float:
         """The standard deviation of the cost, in the same unit; may be infinite."""
+
+    @property
+    def variance(self) -> float:
+        """The variance of the cost, in the square of the unit; may be infinite."""
+        return self.standard_deviation**2
 
     @property
     @abstractmethod
@@ -93,6 +101,67 @@ class CostLaw(ABC):
         """Return the error of `exponential_mean` beyond rounding: 0 but for what is integrated numerically."""
 
     @abstractmethod
+    def expectation(self, function: Callable[[float], float]) -> float:
+        """Return the expected value of a function of the cost.
+
+        Args:
+            function: of a cost as a float, to a finite number.
+
+        Raises:
+            UsageError: this is no function, or what it returns is no finite number.
+            InputError: the expectation cannot be computed.
+        """
+
+    def expected_overrun(self, budget: float) -> float:
+        """Return `E max(C - budget, 0)`: what is paid above a budget, in the mean over all cases."""
+        number(budget, "a budget")
+        return self.expectation(lambda cost: max(cost - budget, 0.0))
+
+    def semi_deviation(self, target: float | None = None) -> float:
+        """Return `sqrt(E max(C - target, 0)^2)`: the deviation of all costs above a target, in the unit of costs.
+
+        Source: Fishburn, *Mean-risk analysis with risk associated with below-target returns*, 1977 (his exponent 2),
+        with costs for losses.
+
+        Args:
+            target: the mean where it is None.
+        """
+        from_here = self.mean if target is None else number(target, "a target")
+        return math.sqrt(self.expectation(lambda cost: max(cost - from_here, 0.0) ** 2))
+
+    def entropic(self, alpha: float) -> float:
+        """Return the entropic risk measure `ln E[e^(alpha C)] / alpha`, in the unit of costs.
+
+        It is the certainty equivalent of a risk-averse agent for a positive alpha, of a risk-seeking one of `-alpha`
+        for a negative, and the mean for 0. Source: Föllmer and Schied, *Convex measures of risk and trading
+        constraints*, 2002, with costs for losses.
+
+        Raises:
+            UsageError: alpha is not finite.
+            InputError: it is infinite, or cannot be computed.
+        """
+        slope = number(alpha, "alpha")
+        if not math.isfinite(slope):
+            raise UsageError(f"alpha must be a finite number, found {slope:g}")
+        return self.exponential_mean(slope) if slope else self.mean
+
+    def evar(self, level: float) -> float:
+        """Return the entropic value at risk: the infimum over all `a > 0` of `entropic(a) + ln(1 / (1 - level)) / a`.
+
+        It is at least the CVaR of the level, the mean for level 0 and the largest possible cost for level 1. Source:
+        Ahmadi-Javid, *Entropic value-at-risk: a new coherent risk measure*, 2012, with costs for losses.
+
+        Raises:
+            UsageError: the level is not between 0 and 1.
+            InputError: it is infinite, or cannot be computed.
+        """
+        from statehtn.model.cost.numerics.evar import entropic_value_at_risk
+
+        if checked_probability(level, "the level of the entropic value at risk") == 0:
+            return self.mean
+        return self.most if level == 1 else entropic_value_at_risk(self, level)
+
+    @abstractmethod
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""
 
@@ -140,6 +209,32 @@ def checked_probability(value: float, what: str) -> float:
     if not 0 <= number(value, what) <= 1:
         raise UsageError(f"{what} must be between 0 and 1, found {value:g}")
     return value
+
+
+def checked_function(function: Callable[[float], float], what: str = "the function") -> Callable[[float], float]:
+    """Return a function of the cost that checks what it returns.
+
+    Raises:
+        UsageError: this is no function; the function that is returned raises it where it fails or gets no finite
+            number.
+    """
+    if not callable(function):
+        raise UsageError(f"expected a function of the cost, found {shown(function)}")
+
+    def called(cost: float) -> float:
+        try:
+            given = function(cost)
+        except StateHtnError:
+            raise
+        except Exception as error:
+            reason = " ".join(f"{type(error).__name__}: {error}".split())
+            raise UsageError(f"{what} fails for a cost of {cost:g} with {reason:.200}") from error
+        value = number(given, f"what {what} returns for a cost of {cost:g}")
+        if not math.isfinite(value):
+            raise UsageError(f"what {what} returns for a cost of {cost:g} must be finite, found {value:g}")
+        return value
+
+    return called
 
 
 def is_of_scipy(value: object) -> bool:

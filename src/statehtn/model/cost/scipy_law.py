@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any
 from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.expected import number
 from statehtn.model.cost.distribution import CostDistribution
-from statehtn.model.cost.law import CostLaw, checked_probability, is_of_scipy
+from statehtn.model.cost.law import CostLaw, checked_function, checked_probability, is_of_scipy
 from statehtn.model.cost.scipy_call import scipy_call
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy import float64
     from numpy.random import Generator
     from numpy.typing import NDArray
@@ -127,12 +129,24 @@ class ScipyCost(CostLaw):
         if level == 1:
             return self.most
         quantile = self.quantile(level)
-        return quantile + self.excess(quantile) / (1 - level)
+        return quantile + self.expected_overrun(quantile) / (1 - level)
 
-    def excess(self, budget: float) -> float:
-        """Return `E[max(C - budget, 0)]`: what is paid above a budget, in the mean over all cases."""
+    def expectation(self, function: Callable[[float], float]) -> float:
+        """Return the expected value of a function of the cost, integrated numerically over the quantiles.
+
+        Raises:
+            UsageError: this is no function, or what it returns is no finite number.
+            InputError: it could not be integrated to 1e-6 of its size.
+        """
+        from statehtn.model.cost.numerics.expectation import expectation
+
+        return expectation(self, checked_function(function))
+
+    def expected_overrun(self, budget: float) -> float:
+        """Return `E max(C - budget, 0)`: what is paid above a budget, in the mean over all cases."""
         from statehtn.model.cost.numerics.quadrature import excess
 
+        number(budget, "a budget")
         if self.is_discrete:
             import numpy
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
@@ -49,6 +49,11 @@ class CostSum(CostLaw):
         return math.hypot(*(part.standard_deviation for part in self.parts))
 
     @property
+    def variance(self) -> float:
+        """The variance of the cost, the sum of those of the parts."""
+        return math.fsum(part.variance for part in self.parts)
+
+    @property
     def least(self) -> float:
         """The least cost that is possible."""
         return math.fsum(part.least for part in self.parts)
@@ -73,6 +78,10 @@ class CostSum(CostLaw):
     def cvar(self, level: float) -> float:
         """Return the mean cost of the worst `1 - level` of all cases."""
         return self.total.cvar(level)
+
+    def expectation(self, function: Callable[[float], float]) -> float:
+        """Return the expected value of a function of the cost, from the law of the sum."""
+        return self.total.expectation(function)
 
     def exponential_mean(self, slope: float) -> float:
         """Return `ln E[e^(slope C)] / slope`, the sum of those of the parts."""
@@ -129,6 +138,11 @@ class TotalCost(CostDistribution):
     def standard_deviation(self) -> float:
         """The standard deviation of the cost, in the domain's unit."""
         return self.summands.standard_deviation
+
+    @property
+    def variance(self) -> float:
+        """The variance of the cost, in the square of the domain's unit."""
+        return self.summands.variance
 
     @property
     def least(self) -> float:

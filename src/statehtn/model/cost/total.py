@@ -90,7 +90,7 @@ def grid_total(uncertain: Sequence[CostLaw], least: float, most: float) -> tuple
             low, high = 0.0, width
             if math.isinf(law.most):
                 cut_probability += count * law.exceedance(tops[law])
-                cut_cost += count * law.excess(tops[law])
+                cut_cost += count * law.expected_overrun(tops[law])
         else:
             masses, low, high = _rounded_masses(law, width)
         transform *= numpy.fft.rfft(masses, CELLS) ** count

@@ -15,6 +15,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError, UsageError
+from statehtn.model.cost.infinite import InfiniteMean
 from statehtn.model.cost.scipy_call import scipy_call
 
 if TYPE_CHECKING:
@@ -119,7 +120,7 @@ def exponential_mean(law: ScipyCost, slope: float) -> tuple[float, float]:
         raise UsageError(f"the slope of an exponential mean must be finite and not 0, found {slope:g}")
     value, error = _closed_form(law, slope) or _integrated(law, slope)
     if math.isinf(value):
-        raise InputError(
+        raise InfiniteMean(
             f"{law.title}: E[e^(alpha C)] is infinite, or too large, for alpha = {slope:g}, so that no certain cost is "
             f"as bad to a risk-averse agent; take a smaller alpha where that helps, or bound the cost (a truncated "
             f"law, samples)"
