@@ -60,6 +60,7 @@ if TYPE_CHECKING:
         objective,
         utility_for,
     )
+    from statehtn.risk.elicitation import Elicited, alpha_of
     from statehtn.settings import SOLVERS
     from statehtn.tabulate import tabulate_costs
     from statehtn.top_result import RankedPlan, TopPlans
@@ -80,6 +81,7 @@ __all__ = [
     "CostTable",
     "Deadline",
     "Decomposition",
+    "Elicited",
     "EntropicValueAtRisk",
     "Exponential",
     "Exponentials",
@@ -114,6 +116,7 @@ __all__ = [
     "Utility",
     "Validation",
     "__version__",
+    "alpha_of",
     "chance",
     "compare_attitudes",
     "cost_distributions",
@@ -186,6 +189,7 @@ _MODULES_FOR_LATER = {
         "objective",
         "utility_for",
     ),
+    "risk.elicitation": ("Elicited", "alpha_of"),
     "settings": ("SOLVERS",),
     "tabulate": ("tabulate_costs",),
     "top_result": ("RankedPlan", "TopPlans"),

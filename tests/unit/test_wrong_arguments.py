@@ -115,6 +115,7 @@ def calls(folder: Path) -> dict[str, Call]:
         "law.entropic": (CostDistribution.certain(2).entropic, [3.0], {}),
         "law.evar": (CostDistribution.certain(2).evar, [0.5], {}),
         "utility_for": (statehtn.utility_for, ["averse", 1.0], {}),
+        "alpha_of": (statehtn.alpha_of, [1.4, law], {}),
         "Exponential": (statehtn.Exponential, [statehtn.Attitude.AVERSE, 0.5], {}),
         "with_cost": (statehtn.with_cost, [problem, "take-car", 3.0], {"when": None}),
         "when": (statehtn.when, [at(here), at(here)], {}),
