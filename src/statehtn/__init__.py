@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
+    from statehtn.build.joint_samples import read_joint_samples
     from statehtn.core.heuristics import HEURISTICS
     from statehtn.core.progress import Progress, TopProgress
     from statehtn.core.searches import SEARCHES
@@ -130,6 +131,7 @@ __all__ = [
     "read_costs",
     "read_hddl",
     "read_hddl_text",
+    "read_joint_samples",
     "read_plan",
     "register",
     "relax",
@@ -150,6 +152,7 @@ _MODULES_FOR_LATER = {
     "build": ("ProblemBuilder", "chance", "equal", "exists", "forall", "when", "with_cost"),
     "build.cost_file": ("read_costs",),
     "build.cost_table": ("CostTable",),
+    "build.joint_samples": ("read_joint_samples",),
     "core.heuristics": ("HEURISTICS",),
     "core.progress": ("Progress", "TopProgress"),
     "core.searches": ("SEARCHES",),

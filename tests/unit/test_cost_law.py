@@ -16,11 +16,14 @@ from statehtn.model import (
     Atom,
     CostBlock,
     CostDistribution,
+    CostLaw,
     CostSum,
+    Domain,
     Expression,
     FunctionTerm,
     Number,
     Parameter,
+    Problem,
 )
 from statehtn.model.cost.ground_cost import CostWarning, action_law, block_law, evaluate
 from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
@@ -44,10 +47,16 @@ def drive(*costs: CostBlock) -> Action:
     return Action("drive", FROM_TO, costs=costs)
 
 
+def whole_law(action: Action, parts: list[tuple[int, tuple[str, ...]]] | None = None) -> CostLaw:
+    priced = Action("wait", costs=(block((1, 1)),))
+    problem = Problem("p", Domain("d", actions={"drive": action, "wait": priced}), function_values=VALUES)
+    return action_law(action, ("a", "b"), [parts or []], problem)
+
+
 def law_of(
     *costs: CostBlock, parts: list[tuple[int, tuple[str, ...]]] | None = None
 ) -> tuple[tuple[float, float], ...]:
-    law = action_law(drive(*costs), ("a", "b"), parts or [], VALUES, unit_costs=False)
+    law = whole_law(drive(*costs), parts)
     assert isinstance(law, CostDistribution)
     return law.outcomes
 
@@ -79,7 +88,8 @@ def test_one_block() -> None:
 
 def test_an_action_without_blocks_is_free_unless_costs_are_units() -> None:
     assert law_of() == ((1.0, 0.0),)
-    assert action_law(drive(), ("a", "b"), [], {}, unit_costs=True) == CostDistribution.certain(1)
+    without_costs = Problem("p", Domain("d", actions={"drive": drive()}))
+    assert action_law(drive(), ("a", "b"), [()], without_costs) == CostDistribution.certain(1)
 
 
 def test_independent_blocks_are_convolved_and_equal_costs_merged() -> None:
@@ -163,13 +173,13 @@ def test_parts_with_too_many_combinations_stay_parts_and_their_prices_add_up() -
     def parts(count: int) -> list[CostBlock]:
         return [block(("0.25", 3**power), ("0.75", 0)) for power in range(count)]
 
-    law = action_law(drive(block((1, 1)), *parts(60), block((1, 2))), ("a", "b"), [], VALUES, unit_costs=False)
+    law = whole_law(drive(block((1, 1)), *parts(60), block((1, 2))))
     assert isinstance(law, CostSum)
     assert len(law.parts) == 61  # what is certain is one part
     assert str(law) == "61 independent parts, from 3 to 2.11956e+28"
     assert law.mean == pytest.approx(3 + (3**60 - 1) / 8, rel=1e-15)
 
-    sums = action_law(drive(*parts(10)), ("a", "b"), [], VALUES, unit_costs=False)
+    sums = whole_law(drive(*parts(10)))
     assert isinstance(sums, CostSum)
     multiplied = sums.total
     assert isinstance(multiplied, CostDistribution)
@@ -202,4 +212,4 @@ def test_a_cost_that_is_too_large_to_be_added_up_is_an_error_with_its_place() ->
     with pytest.raises(InputError, match=r"d\.hddl:4:9: the cost of \(drive a b\) can be 1e\+300, .* larger unit"):
         law_of(block((1, 1)), large)
     with pytest.raises(InputError, match="too large"):
-        action_law(drive(CostBlock((), law=CostDistribution.certain(1e300))), ("a", "b"), [], VALUES, unit_costs=False)
+        whole_law(drive(CostBlock((), law=CostDistribution.certain(1e300))))

@@ -210,7 +210,7 @@ def test_the_examples_of_the_documentation() -> None:
     assert len(examples) == 4
     for domain, problem in zip(examples[::2], examples[1::2], strict=True):
         assert read_hddl_text(domain, problem, strict=True).network.subtasks
-    drive = read_hddl_text(*examples[:2]).domain.actions["drive"]
-    law = action_law(drive, ("mountain",), [(2, ())], {}, unit_costs=False)
+    problem = read_hddl_text(*examples[:2])
+    law = action_law(problem.domain.actions["drive"], ("mountain",), [[(2, ())]], problem)
     assert isinstance(law, CostDistribution)
     assert law.outcomes == ((0.4, 5.0), (0.4, 6.0), (0.1, 9.0), (0.1, 10.0))

@@ -222,7 +222,7 @@ def test_mistakes_in_the_problem(old: str, new: str, message: str) -> None:
         (
             "(at c1 home) (late))\n(:goal",
             "(oneof (late) (late)))\n(:goal",
-            "problem:5:8: the initial state must be",
+            "problem:5:8: 'oneof' is not supported in ':init'",
         ),
         ("(:goal (at c1 home))", "(:metric maximize (total-cost))", "problem:6:1: the only metric is"),
         ("(:goal (at c1 home))", "(:metric minimize (+ (total-cost) 1))", "problem:6:1: the only metric is"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
+from statehtn.build.chances import chance_of
 from statehtn.build.declarations import Declarations, Scope
 from statehtn.build.domain_builder import DomainBuilder, declared_in
 from statehtn.build.names import new_name
@@ -22,9 +23,11 @@ from statehtn.model import (
     Problem,
     TaskNetwork,
 )
+from statehtn.model.chance import Chance, scenarios_of
 from statehtn.model.cost.blocks import Amount, exact
 from statehtn.model.expect import expect_problem
 from statehtn.model.formula import Combinable
+from statehtn.model.hidden import check_that_costs_alone_read
 
 
 class ProblemBuilder(DomainBuilder):
@@ -54,6 +57,7 @@ class ProblemBuilder(DomainBuilder):
         self._facts: set[Fact] = set()
         self._values: dict[tuple[str, ...], Fraction] = {}
         self._goal: Formula = TRUE
+        self._chances: list[Chance] = []
 
     @classmethod
     def of(cls, problem: Problem) -> ProblemBuilder:
@@ -65,6 +69,7 @@ class ProblemBuilder(DomainBuilder):
         builder._facts.update(problem.initial_state)
         builder._values.update(problem.function_values)
         builder._goal = problem.goal
+        builder._chances += problem.chances
         return builder
 
     def initially(self, *facts: Atom) -> None:
@@ -74,6 +79,18 @@ class ProblemBuilder(DomainBuilder):
                 raise UsageError(f"a fact is an atom such as at(l1), found {fact!r}; what is not stated is false")
             self._declared.check_formula(fact, Scope())
         self._facts.update((fact.predicate, *fact.arguments) for fact in facts)
+
+    def initially_by_chance(self, *outcomes: tuple[Amount, Atom | Iterable[Atom]]) -> None:
+        """Add facts that are decided by chance before a plan begins and never seen: only conditions of costs read them.
+
+        Args:
+            outcomes: pairs (probability, the facts that hold then), such as `(0.3, snow()), (0.7, ())`: exactly one
+                comes true. What is decided by other calls is independent.
+
+        Raises:
+            UsageError: the probabilities do not sum to 1, or a fact is none.
+        """
+        self._chances.append(chance_of(outcomes, self._declared))
 
     def set_values(self, values: Mapping[FunctionTerm, Amount]) -> None:
         """Give functions their values, such as `{fare(a, b): 4}`; a second value replaces the first."""
@@ -113,11 +130,13 @@ class ProblemBuilder(DomainBuilder):
 
         Raises:
             UsageError: it has no initial task network.
+            UnsupportedError: something else than the condition of a cost reads hidden facts, or there are too many
+                scenarios.
         """
         if self._network is None:
             raise UsageError(f"problem '{self.name}' has nothing to do yet: give it tasks by set_network(...)")
         parameters, network = self._network
-        return Problem(
+        problem = Problem(
             self.name,
             self._domain(),
             dict(self._declared.objects),
@@ -126,7 +145,11 @@ class ProblemBuilder(DomainBuilder):
             frozenset(self._facts),
             dict(self._values),
             self._goal,
+            tuple(self._chances),
         )
+        check_that_costs_alone_read(problem)
+        scenarios_of(problem.chances)
+        return problem
 
     def __repr__(self) -> str:
         declared = self._declared

@@ -10,7 +10,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from statehtn.build.cost_table import CostEntry, CostTable
+from statehtn.build.cost_table import CostEntry, CostTable, Days
+from statehtn.build.joint_samples import read_days
 from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.expected import file_name
 from statehtn.keyed_file import KeyedTable, read_tables
@@ -21,6 +22,7 @@ from statehtn.model.cost.scipy_law import ScipyCost
 from statehtn.read_file import read_whole
 
 OWN_KEYS = ("action", "arguments")
+JOINT = "joint"
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,8 @@ def read_costs(file: str | os.PathLike[str], limits: Limits = Limits()) -> CostT
     """Read costs for the actions of a domain from a TOML file, or a JSON file if its name ends in `.json`.
 
     The file has a list `costs` of tables: `action`, `arguments` where only some instances are meant, and one of
-    `cost`, `outcomes`, `samples`, `counts` (with `prior`) and `distribution` (with `parameters`). See docs/costs.md.
+    `cost`, `outcomes`, `samples`, `counts` (with `prior`) and `distribution` (with `parameters`). A table `joint` has
+    `samples`, the name of a CSV file of costs that were observed together (`read_joint_samples`). See docs/costs.md.
     The `limits` hold while it and files of samples are read.
 
     Raises:
@@ -47,16 +50,28 @@ def read_costs(file: str | os.PathLike[str], limits: Limits = Limits()) -> CostT
     """
     path = Path(file_name(file, "the costs"))
     whole = KeyedTable(str(path), read_tables(path, limits))
-    whole.check_keys(("costs",))
-    tables = whole.values.get("costs")
+    whole.check_keys(("costs", JOINT))
+    tables = whole.values.get("costs", [] if JOINT in whole.values else None)
     if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
         whole.complain("costs", "a list of tables, such as [[costs]] in TOML", tables)
     entries = []
     where = _Place(path.parent, limits, [])
+    days = _days(whole, where) if JOINT in whole.values else None
     for number, values in enumerate(tables, 1):
         table = KeyedTable(f"{path}: entry {number} of 'costs'", values)
         entries.append(CostEntry(table.place, table.text("action"), _arguments(table), _law(table, where)))
-    return CostTable(tuple(entries), tuple(where.files))
+    return CostTable(tuple(entries), tuple(where.files), days)
+
+
+def _days(whole: KeyedTable, where: _Place) -> Days:
+    values = whole.values[JOINT]
+    if not isinstance(values, dict):
+        whole.complain(JOINT, "a table such as [joint] in TOML", values)
+    table = KeyedTable(f"{whole.place}: '{JOINT}'", values)
+    table.check_keys(("samples",))
+    file = where.folder / table.text("samples")
+    where.files.append(str(file))
+    return read_days(file, where.limits)
 
 
 def _arguments(table: KeyedTable) -> tuple[str, ...] | None:

@@ -2,13 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import chain, count
 
-from statehtn.errors import InputError
+from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.diagnostics import unknown
 from statehtn.hddl.spelling import Spellings
-from statehtn.model import Action, And, CostBlock, CostDistribution, CostLaw, Equals, Formula, Not, Problem
-from statehtn.model.cost.blocks import block_of
+from statehtn.model import (
+    Action,
+    And,
+    CostBlock,
+    CostDistribution,
+    CostLaw,
+    Domain,
+    Equals,
+    Fact,
+    Formula,
+    Not,
+    Problem,
+    Signature,
+)
+from statehtn.model.chance import MOST_SCENARIOS, Chance, Outcome, scenario_count, too_many
+from statehtn.model.cost.blocks import NO_COST, block_of
 from statehtn.model.expect import expect_problem
 from statehtn.model.formula import TRUE
 
@@ -24,12 +41,18 @@ class CostEntry:
         action: the action's name, in any case.
         arguments: an object for each parameter, in any case, or `*` for any; None for all instances.
         law: of the cost.
+        by_day: instead of it the cost on each observed day.
     """
 
     place: str
     action: str
     arguments: tuple[str, ...] | None
-    law: CostLaw
+    law: CostLaw = NO_COST
+    by_day: tuple[CostLaw, ...] = ()
+
+    def block(self, days: Sequence[Fact]) -> CostBlock:
+        """Return the cost, where each of the hidden facts stands for a day."""
+        return CostBlock((), cases=dict(zip(days, self.by_day, strict=True))) if self.by_day else block_of(self.law)
 
     def covers(self, other: CostEntry) -> bool:
         """Tell whether every instance that the other entry is about is one of this entry's, too."""
@@ -54,6 +77,21 @@ class CostEntry:
         return TRUE if not fixed else fixed[0] if len(fixed) == 1 else And(fixed)
 
 
+@dataclass(frozen=True, slots=True)
+class Days:
+    """Costs that were observed together.
+
+    Args:
+        place: the file, for messages.
+        names: of the days.
+        entries: for each instance its cost on each of them.
+    """
+
+    place: str
+    names: tuple[str, ...]
+    entries: tuple[CostEntry, ...]
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class CostTable:
     """Laws of costs by action and arguments; `statehtn.read_costs` reads one from a file.
@@ -61,13 +99,16 @@ class CostTable:
     Args:
         entries: the laws, in the file's order: of several for one instance the first one counts.
         files: the names of the files with samples that were read for them.
+        days: costs that were observed together; they count before the others.
     """
 
     entries: tuple[CostEntry, ...]
     files: tuple[str, ...] = ()
+    days: Days | None = None
 
     def __repr__(self) -> str:
-        return f"<cost table: {len(self.entries)} entries>"
+        days = "" if self.days is None else f", {len(self.days.entries)} columns of {len(self.days.names)} days"
+        return f"<cost table: {len(self.entries)} entries{days}>"
 
     def apply(self, problem: Problem) -> Problem:
         """Return a problem in which actions cost what the entries say; the problem that is given stays as it is.
@@ -82,7 +123,12 @@ class CostTable:
         domain = expect_problem(problem).domain
         by_action: dict[str, list[CostEntry]] = {}
         names = Spellings(domain.actions), Spellings(problem.all_objects)
-        for given in self.entries:
+        facts: list[Fact] = []
+        if self.days is not None:
+            facts = _facts_of(self.days, domain)
+            problem = _with_days(problem, self.days, facts)
+            domain = problem.domain
+        for given in (*(self.days.entries if self.days else ()), *self.entries):
             entry = _as_declared(given, *names)
             _check(entry, problem, by_action.setdefault(entry.action, []))
             by_action[entry.action].append(entry)
@@ -90,8 +136,29 @@ class CostTable:
         actions = {}
         for name, action in domain.actions.items():
             old = action.costs if unit is None else unit
-            actions[name] = replace(action, costs=_blocks(action, by_action.get(name, []), old))
-        return replace(problem, domain=replace(domain, actions=actions)) if self.entries else problem
+            actions[name] = replace(action, costs=_blocks(action, by_action.get(name, []), old, facts))
+        return replace(problem, domain=replace(domain, actions=actions)) if by_action else problem
+
+
+def _facts_of(days: Days, domain: Domain) -> list[Fact]:
+    """Return a hidden fact for each day, of predicates that the domain does not have."""
+    taken = Spellings(domain.predicates)
+    for prefix in chain(("day",), (f"day{n}" for n in count(2))):
+        names = [f"{prefix}-{number}" for number in range(1, len(days.names) + 1)]
+        if taken.has_none_of(names):
+            break
+    return [(name,) for name in names]
+
+
+def _with_days(problem: Problem, days: Days, facts: Sequence[Fact]) -> Problem:
+    """Return a problem in which one of the days is chosen by chance."""
+    weight = Fraction(1, len(facts))
+    chance = Chance(tuple(Outcome(weight, frozenset({fact}), day) for fact, day in zip(facts, days.names, strict=True)))
+    chances = (*problem.chances, chance)
+    if (number := scenario_count(chances)) > MOST_SCENARIOS:
+        raise UnsupportedError(f"{days.place}: together with the hidden facts, {too_many(number)}")
+    predicates = {**problem.domain.predicates, **{name: Signature(name) for (name,) in facts}}
+    return replace(problem, domain=replace(problem.domain, predicates=predicates), chances=chances)
 
 
 def _as_declared(entry: CostEntry, actions: Spellings, objects: Spellings) -> CostEntry:
@@ -129,13 +196,15 @@ def _check(entry: CostEntry, problem: Problem, before: list[CostEntry]) -> None:
             )
 
 
-def _blocks(action: Action, entries: list[CostEntry], old: tuple[CostBlock, ...]) -> tuple[CostBlock, ...]:
+def _blocks(
+    action: Action, entries: list[CostEntry], old: tuple[CostBlock, ...], days: Sequence[Fact]
+) -> tuple[CostBlock, ...]:
     """Return the cost of an action: what the entries say, and its old cost for instances without an entry."""
     found = []
     for number, entry in enumerate(entries):
         others = [earlier for earlier in entries[:number] if earlier.overlaps(entry)]
         condition = _joined(entry.condition(action), action, others)
-        found.append(replace(block_of(entry.law), condition=condition))
+        found.append(replace(entry.block(days), condition=condition))
     if any(entry.condition(action) == TRUE for entry in entries):
         return tuple(found)
     return (*found, *(replace(block, condition=_joined(block.condition, action, entries)) for block in old))

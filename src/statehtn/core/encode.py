@@ -5,7 +5,7 @@ What the grounder has no words for has become tasks and methods before (`schemes
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import statehtn._relax as _relax
@@ -25,15 +25,30 @@ from statehtn.model import (
     Problem,
 )
 from statehtn.model.cost.ground_cost import is_unconditional
+from statehtn.model.formula import Fact, predicates
+from statehtn.model.hidden import check_that_costs_alone_read, hidden_predicates
 
 Kind = _relax.FormulaKind
+
+
+@dataclass(frozen=True, slots=True)
+class CostPart:
+    """A conditional cost block as the core takes it: in some of the scenarios, where there are any.
+
+    What is hidden never changes, so that a condition that reads hidden facts is one on other facts in each scenario. It
+    is encoded once for all scenarios in which it reads the same, with predicates that are static.
+    """
+
+    block: int  # in `Action.costs`
+    scenarios: frozenset[int] | None  # None: in all of them
 
 
 @dataclass
 class Encoding:
     """A lifted problem in numbers, and what the numbers mean.
 
-    `actions` and `schemes` are by the core's schema numbers; precondition actions are None.
+    `actions`, `cost_parts` and `schemes` are by the core's schema numbers; precondition actions are None. Parts of a
+    cost have their index in a row of `cost_parts` as the core's number.
     """
 
     problem: Problem
@@ -41,6 +56,7 @@ class Encoding:
     objects: list[str] = field(default_factory=list)
     predicates: list[str] = field(default_factory=list)
     actions: list[Action | None] = field(default_factory=list)
+    cost_parts: list[list[CostPart]] = field(default_factory=list)
     action_names: list[str] = field(default_factory=list)
     tasks: list[str] = field(default_factory=list)
     schemes: list[Scheme] = field(default_factory=list)
@@ -76,13 +92,17 @@ class _Encoder:
         self.result.objects = list(problem.all_objects)
         self.object_numbers = {name: number for number, name in enumerate(self.result.objects)}
         self.result.predicates = list(problem.domain.predicates)
-        self.predicate_numbers = {name: number for number, name in enumerate(self.result.predicates)}
+        self.own_numbers = {name: number for number, name in enumerate(self.result.predicates)}
+        self.predicate_numbers = self.own_numbers  # of the formula that is being encoded
         self.domain_numbers: dict[tuple[str, ...], int] = {}
         self.domains: list[list[int]] = []
         self.numbers: dict[str, int] = {}  # of tasks
+        self.hidden = hidden_predicates(problem.chances)
+        self.static_numbers: dict[tuple[str, frozenset[Fact]], int] = {}  # of hidden predicates with these facts
 
     def run(self, split: bool) -> Encoding:
         problem, domain, result = self.problem, self.problem.domain, self.result
+        check_that_costs_alone_read(problem)
         precondition_actions, result.schemes = method_schemes(problem, split)
         result.actions = [*domain.actions.values(), *(None for _ in precondition_actions)]
         result.action_names = [*domain.actions, *(action.name for action in precondition_actions)]
@@ -112,7 +132,11 @@ class _Encoder:
         self.handle.initial_state = sorted(
             [self.predicate_numbers[name], *(objects[argument] for argument in arguments)]
             for name, *arguments in problem.initial_state
-        )
+        ) + [
+            [number, *(objects[argument] for argument in arguments)]
+            for (_, facts), number in self.static_numbers.items()
+            for _, *arguments in sorted(facts)
+        ]
         return result
 
     def add_action(self, action: Action) -> None:
@@ -129,14 +153,43 @@ class _Encoder:
                 )
             )
         costs = []
+        parts: list[CostPart] = []
         for index, block in enumerate(action.costs):
             if not is_unconditional(block):
-                variables, condition, _ = self.quantified(block.parameters, block.condition, (), scope)
-                costs.append(_relax.LiftedCostCondition(index, variables, condition))
+                for scenarios in self.told_apart(block.condition):
+                    variables, condition, _ = self.quantified(block.parameters, block.condition, (), scope)
+                    costs.append(_relax.LiftedCostCondition(len(parts), variables, condition))
+                    parts.append(CostPart(index, scenarios))
+        self.predicate_numbers = self.own_numbers
+        self.result.cost_parts.append(parts)
         self.handle.add_action(self.domains_of(action.parameters), scope.count, precondition, effects, costs, False)
+
+    def told_apart(self, condition: Formula) -> Iterator[frozenset[int] | None]:
+        """Yield the scenarios between which a condition does not distinguish; meanwhile it reads those facts."""
+        read = self.hidden.intersection(predicates(condition))
+        if not read:
+            self.predicate_numbers = self.own_numbers
+            yield None
+            return
+        classes: dict[frozenset[Fact], set[int]] = {}
+        for number, scenario in enumerate(self.problem.scenarios):
+            classes.setdefault(frozenset(fact for fact in scenario.facts if fact[0] in read), set()).add(number)
+        for facts, members in classes.items():
+            self.predicate_numbers = self.own_numbers | {name: self.static(name, facts) for name in read}
+            yield frozenset(members)
+
+    def static(self, predicate: str, hidden: frozenset[Fact]) -> int:
+        """Return the number of a predicate whose facts never change: those that hold where these hidden ones do."""
+        facts = {fact for fact in (*self.problem.initial_state, *hidden) if fact[0] == predicate}
+        key = predicate, frozenset(facts)
+        if key not in self.static_numbers:
+            self.static_numbers[key] = len(self.result.predicates)
+            self.result.predicates.append(predicate)
+        return self.static_numbers[key]
 
     def add_precondition_action(self, action: PreconditionAction) -> None:
         """Add an action that only tests a condition."""
+        self.result.cost_parts.append([])
         scope = _Scope(action.parameters)
         precondition = self.formula(action.condition, scope)
         self.handle.add_action(self.domains_of(action.parameters), scope.count, precondition, [], [], True)

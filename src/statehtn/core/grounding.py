@@ -6,9 +6,10 @@ import warnings
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import statehtn._relax as _relax
-from statehtn.core.encode import Encoding, encode
+from statehtn.core.encode import CostPart, Encoding, encode
 from statehtn.errors import UnsupportedError
 from statehtn.limits import LimitReached, Limits, watched
 from statehtn.model import (
@@ -24,9 +25,17 @@ from statehtn.model import (
     Problem,
 )
 from statehtn.model.cost.blocks import Arithmetic, Expression, FunctionTerm
-from statehtn.model.cost.ground_cost import UNIT_COST, CostWarning, block_law, is_unconditional, sum_of_blocks
+from statehtn.model.cost.ground_cost import (
+    UNIT_COST,
+    CostWarning,
+    block_law,
+    is_unconditional,
+    sum_in_scenario,
+    sum_of_blocks,
+)
+from statehtn.model.cost.scenario_cost import ScenarioCost, by_scenario
 from statehtn.model.cost.unknown import MissingNumber, UnknownCost
-from statehtn.model.problem import Action
+from statehtn.model.problem import Action, Fact
 from statehtn.model.status import Status
 
 STOPPED = {
@@ -82,6 +91,11 @@ class Grounding:
     def fact_count(self) -> int:
         """The number of facts that can change and that something reads."""
         return self.handle.fact_count
+
+    @cached_property
+    def has_scenarios(self) -> bool:
+        """Whether a cost depends on hidden facts, so that costs of actions hang together."""
+        return any(isinstance(law, ScenarioCost) for law in chain(self.laws, self.part_laws))
 
     @property
     def action_count(self) -> int:
@@ -223,6 +237,8 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
 
 Blocks = list[tuple[int, tuple[str, ...]]]
 """Blocks of a cost: (index in `Action.costs`, objects of its variables)."""
+Parts = list[tuple[CostPart, tuple[str, ...]]]
+"""Blocks of a cost, each with the scenarios in which it is due, and objects of its variables."""
 
 
 class _CostLaws:
@@ -232,10 +248,11 @@ class _CostLaws:
         self.encoding = encoding
         self.handle = handle
         self.limits = limits
+        self.problem = encoding.problem
         self.values = encoding.problem.function_values
         self.unit_costs = encoding.problem.domain.has_unit_costs
-        self.shared: dict[tuple[int, tuple[int, ...]], CostLaw] = {}
-        self.always: dict[int, Blocks] = {}  # by schema: those without condition and variables
+        self.shared: dict[tuple[int, tuple[CostPart, ...]], CostLaw] = {}
+        self.always: dict[int, Parts] = {}  # by schema: those without condition and variables
         self.missing: dict[str, MissingNumber] = {}
 
     def all(self) -> tuple[tuple[CostLaw, ...], tuple[CostLaw, ...]]:
@@ -256,8 +273,8 @@ class _CostLaws:
             for part in range(*self.handle.cost_parts(number)):
                 if part % 1024 == 0:
                     self.limits.check()
-                blocks = self.read_blocks(self.handle.cost_part_blocks(part))
-                part_laws.append(self.law(number, schema, action, blocks))
+                parts = self.read_parts(schema, self.handle.cost_part_blocks(part))
+                part_laws.append(self.law(number, schema, action, parts))
         self.warn_of_missing_numbers()
         return tuple(laws), tuple(part_laws)
 
@@ -265,37 +282,56 @@ class _CostLaws:
         if self.unit_costs:
             return UNIT_COST
         if schema not in self.always:
-            self.always[schema] = [(index, ()) for index, block in enumerate(action.costs) if is_unconditional(block)]
-        blocks = self.read_blocks(self.handle.action_cost_blocks(number))
-        return self.law(number, schema, action, self.always[schema] + blocks)
+            self.always[schema] = [
+                (CostPart(index, None), ()) for index, block in enumerate(action.costs) if is_unconditional(block)
+            ]
+        parts = self.read_parts(schema, self.handle.action_cost_blocks(number))
+        return self.law(number, schema, action, self.always[schema] + parts)
 
-    def law(self, number: int, schema: int, action: Action, blocks: Blocks) -> CostLaw:
-        key = (schema, tuple(index for index, _ in blocks))
+    def law(self, number: int, schema: int, action: Action, parts: Parts) -> CostLaw:
+        key = (schema, tuple(part for part, _ in parts))
         law = self.shared.get(key)
         if law is None:
             arguments = self.objects(self.handle.action_arguments(number))
+            blocks = self.in_each_scenario(parts)
             try:
-                law = sum_of_blocks(action, arguments, blocks, self.values)
+                law = sum_of_blocks(action, arguments, blocks, self.problem)
             except MissingNumber:
-                law = self.known_part(action, arguments, blocks)
-            if all(_is_the_same_for_all(action.costs[index]) for index, _ in blocks):
+                law = self.known_law(action, arguments, blocks)
+            if all(_is_the_same_for_all(action.costs[part.block]) for part, _ in parts):
                 self.shared[key] = law
         return law
 
-    def known_part(self, action: Action, arguments: tuple[str, ...], blocks: Blocks) -> CostLaw:
+    def in_each_scenario(self, parts: Parts) -> list[Blocks]:
+        """Return the blocks that are due in each scenario; once, where there are none."""
+        return [
+            [(part.block, objects) for part, objects in parts if part.scenarios is None or scenario in part.scenarios]
+            for scenario in range(len(self.problem.scenarios) or 1)
+        ]
+
+    def known_law(self, action: Action, arguments: tuple[str, ...], blocks: list[Blocks]) -> CostLaw:
+        """Return the law of blocks of which some need missing numbers."""
+        scenarios = self.problem.scenarios
+        hidden = [scenario.facts for scenario in scenarios] or [frozenset()]
+        laws = [self.known_part(action, arguments, *pair) for pair in zip(blocks, hidden, strict=True)]
+        return by_scenario(scenarios, laws)
+
+    def known_part(
+        self, action: Action, arguments: tuple[str, ...], blocks: Blocks, hidden: frozenset[Fact]
+    ) -> CostLaw:
         """Return the law of the blocks that need no missing number, and that of one that does."""
         known: Blocks = []
         laws: list[CostLaw] = []
         for index, objects in blocks:
             try:
-                block_law(action.costs[index], action, arguments, objects, self.values)
+                block_law(action.costs[index], action, arguments, objects, self.values, hidden)
             except MissingNumber as error:
                 self.missing.setdefault(error.message, error)
                 laws = [UnknownCost(error=error)]
             else:
                 known.append((index, objects))
         if known:
-            laws.append(sum_of_blocks(action, arguments, known, self.values))
+            laws.append(sum_in_scenario(action, arguments, known, self.values, hidden))
         return CostSum(tuple(laws)) if len(laws) > 1 else laws[0]
 
     def warn_of_missing_numbers(self) -> None:
@@ -305,14 +341,14 @@ class _CostLaws:
             until = "this cost is taken as 0, which is an error only if the best plan has it"
             warnings.warn(f"{first}; {until}{others}", CostWarning, stacklevel=2)
 
-    def read_blocks(self, record: list[int]) -> Blocks:
-        blocks = []
+    def read_parts(self, schema: int, record: list[int]) -> Parts:
+        parts: Parts = []
         at = 0
         while at < len(record):
             index, count = record[at : at + 2]
-            blocks.append((index, self.objects(record[at + 2 : at + 2 + count])))
+            parts.append((self.encoding.cost_parts[schema][index], self.objects(record[at + 2 : at + 2 + count])))
             at += 2 + count
-        return blocks
+        return parts
 
     def objects(self, numbers: list[int]) -> tuple[str, ...]:
         return tuple(self.encoding.objects[number] for number in numbers)

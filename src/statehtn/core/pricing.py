@@ -12,10 +12,10 @@ from typing import NamedTuple
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.scale import Scale
-from statehtn.errors import InputError
+from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import Limits, watched
 from statehtn.model import CostLaw
-from statehtn.risk import Exponential, Utility
+from statehtn.risk import Exponential, Neutral, Utility
 
 ROUNDING = 2.0**-40
 """By how much of itself the risk cost of an uncertain cost is off at most, computed in floating point.
@@ -110,8 +110,13 @@ def price(grounding: Grounding, objective: Utility, limits: Limits = Limits()) -
 
     Raises:
         InputError: a cost has no finite price for this agent; the message names the action.
+        UnsupportedError: costs hang together, so that only their means add up.
         LimitReached: a limit was reached.
     """
+    if grounding.has_scenarios and not isinstance(objective, Neutral):
+        raise UnsupportedError(
+            f"costs that depend on hidden facts hang together, and prices for '{objective}' do not add up along a plan"
+        )
     known: dict[int, RiskCost] = {}
 
     def priced(laws: Sequence[CostLaw], name_of: Callable[[int], str]) -> list[RiskCost]:

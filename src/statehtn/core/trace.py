@@ -16,7 +16,8 @@ from statehtn.collector import without_collector
 from statehtn.core.grounding import Grounding
 from statehtn.core.schemes import Scheme
 from statehtn.limits import Limits
-from statehtn.model import CostLaw, CostSum, Decomposition, Plan, Step
+from statehtn.model import CostLaw, Decomposition, Plan, Step
+from statehtn.model.cost.scenario_cost import sum_of
 
 
 @dataclass(slots=True)
@@ -213,7 +214,7 @@ class TraceReader:
             return base
         law = self._laws.get(due)  # a part belongs to one action
         if law is None:
-            law = self._laws[due] = CostSum((base, *(self._grounding.part_laws[part] for part in due)))
+            law = self._laws[due] = sum_of([base, *(self._grounding.part_laws[part] for part in due)])
         return law
 
     def _method(self, method: int) -> _GroundMethod:

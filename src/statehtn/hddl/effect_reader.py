@@ -14,6 +14,8 @@ from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.typed_lists import read_parameters
 from statehtn.hddl.vocabulary import Scope, Vocabulary, scope_of
 from statehtn.model import TRUE, And, Atom, CostBlock, Effect, Formula, Number, Parameter
+from statehtn.model.formula import predicates
+from statehtn.model.hidden import ONLY_COSTS
 
 _NUMERIC = frozenset({"decrease", "assign", "scale-up", "scale-down"})
 
@@ -50,11 +52,11 @@ class EffectReader:
             case "not":
                 if len(node.items) != 2:
                     raise self.reporter.error("expected '(not (<predicate> ...))'", node)
-                self.effects.append(Effect(self._atom(node.items[1], scope), False, condition, parameters))
+                self._add_effect(Effect(self._atom(node.items[1], scope), False, condition, parameters), node)
             case "forall":
                 self._forall(node, scope, condition, parameters)
             case _ if self.vocabulary.predicate(node.name):
-                self.effects.append(Effect(self._atom(node, scope), True, condition, parameters))
+                self._add_effect(Effect(self._atom(node, scope), True, condition, parameters), node)
             case "when":
                 self._when(node, scope, condition, parameters)
             case "increase":
@@ -66,6 +68,16 @@ class EffectReader:
             case _:
                 raise self._refusal(node)
 
+    def _add_effect(self, effect: Effect, node: Group) -> None:
+        hidden = self.vocabulary.hidden
+        if effect.atom.predicate in hidden:
+            message = f"this effect changes a fact of '{effect.atom.predicate}'; {ONLY_COSTS}"
+            raise self.reporter.unsupported(message, node)
+        for predicate in predicates(effect.condition) if hidden else ():
+            if predicate in hidden:
+                raise self.reporter.unsupported(f"this effect depends on a fact of '{predicate}'; {ONLY_COSTS}", node)
+        self.effects.append(effect)
+
     def _add_cost(self, branches: Branches, condition: Formula, parameters: tuple[Parameter, ...], node: Group) -> None:
         place = self.reporter.source.place(node.index)
         self.costs.append(CostBlock(branches, condition, parameters, place=place))
@@ -73,7 +85,7 @@ class EffectReader:
     def _when(self, node: Group, scope: Scope, condition: Formula, parameters: tuple[Parameter, ...]) -> None:
         if len(node.items) != 3:
             raise self.reporter.error("expected '(when <condition> <effect>)'", node)
-        inner = FormulaReader(self.vocabulary, self.reporter).read(node.items[1], scope)
+        inner = FormulaReader(self.vocabulary, self.reporter, may_read_hidden=True).read(node.items[1], scope)
         both = inner if condition == TRUE else And((condition, inner))
         self.read(node.items[2], scope, both, parameters)
 

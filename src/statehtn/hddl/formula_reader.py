@@ -10,6 +10,7 @@ from statehtn.hddl.expressions import Group, Node, Word, consumed, describe
 from statehtn.hddl.typed_lists import declared_types, read_parameters, typed_list
 from statehtn.hddl.vocabulary import Scope, Vocabulary, scope_of
 from statehtn.model import TRUE, And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or
+from statehtn.model.hidden import ONLY_COSTS
 
 SORT = frozenset({"sortof", "sort", "typeof"})
 NUMERIC = frozenset({"<", "<=", ">", ">="})
@@ -20,11 +21,15 @@ TEMPORAL = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class FormulaReader:
-    """Reads formulas over a vocabulary; a constraint is a formula without facts and quantifiers."""
+    """Reads formulas over a vocabulary.
+
+    A constraint is a formula without facts and quantifiers; only the condition of a cost may read what is hidden.
+    """
 
     vocabulary: Vocabulary
     reporter: Reporter
     is_constraint: bool = False
+    may_read_hidden: bool = False
 
     def read(self, node: Node, scope: Scope) -> Formula:
         """Return the formula of a node; `()` is true.
@@ -86,6 +91,8 @@ class FormulaReader:
     def _atom(self, node: Group, scope: Scope) -> Formula:
         signature = self.vocabulary.predicate(node.name)
         if signature is not None:
+            if not self.may_read_hidden and signature.name in self.vocabulary.hidden:
+                raise self.reporter.unsupported(f"this reads a fact of '{signature.name}'; {ONLY_COSTS}", node)
             terms = self.vocabulary.terms("predicate", signature, node, node.items[1:], scope, self.reporter)
             return Atom(signature.name, terms)
         if node.head in SORT:

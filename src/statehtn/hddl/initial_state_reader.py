@@ -5,17 +5,19 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Literal
 
+from statehtn.hddl.chance_reader import ChanceReader
 from statehtn.hddl.cost_reader import TOTAL_COST, not_read, read_number
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
 from statehtn.hddl.vocabulary import Vocabulary
 from statehtn.model import Fact, Signature
+from statehtn.model.chance import Chance
 
 CHECK_EVERY = 4096
 
 
 class InitialStateReader:
-    """Collects facts and function values.
+    """Collects facts, function values and what is decided by chance.
 
     Plain facts and values take a fast path that looks at tokens only; whatever it does not take is read as a nested
     list, which then explains what is wrong with it.
@@ -24,6 +26,7 @@ class InitialStateReader:
     def __init__(self, vocabulary: Vocabulary, reporter: Reporter) -> None:
         self.facts: set[Fact] = set()
         self.values: dict[tuple[str, ...], Fraction] = {}
+        self._chance_reader = ChanceReader(reporter, self._fact)
         self._false: list[tuple[Fact, Node]] = []
         self._vocabulary = vocabulary
         self._reporter = reporter
@@ -31,6 +34,11 @@ class InitialStateReader:
         self._predicates = self._allowed(vocabulary.predicates)
         self._functions = self._allowed(vocabulary.functions)
         self._numbers: dict[str, Fraction | None] = {}
+
+    @property
+    def chances(self) -> tuple[Chance, ...]:
+        """What is decided by chance."""
+        return tuple(self._chance_reader.chances)
 
     def read(self, start: int, end: int) -> None:
         """Add what a section states.
@@ -66,6 +74,9 @@ class InitialStateReader:
         for fact, node in self._false:
             if fact in facts:
                 raise self._reporter.error(f"the fact ({' '.join(fact)}) is stated as true and as false", node)
+        for fact, hidden in self._chance_reader.facts.items():
+            if fact in facts:
+                raise self._reporter.error(f"the fact ({' '.join(fact)}) is stated as true and as a chance", hidden)
 
     def _allowed(self, signatures: dict[str, Signature]) -> dict[str, tuple[frozenset[str], ...]]:
         """For every name the objects that each parameter allows."""
@@ -154,8 +165,14 @@ class InitialStateReader:
                 if not isinstance(operand, Group) or operand is node:
                     raise self._reporter.error("expected '(not (<predicate> ...))'", node)
                 self._false.append((self._fact(operand), node))
-            case "probabilistic" | "oneof" | "or" | "unknown" if not self._vocabulary.predicate(node.name):
-                raise self._reporter.unsupported("the initial state must be certain", node)
+            case "probabilistic" if not self._vocabulary.predicate(node.name):
+                self._chance_reader.read(node)
+            case "oneof" | "or" | "unknown" if not self._vocabulary.predicate(node.name):
+                raise self._reporter.unsupported(
+                    f"'{node.head}' is not supported in ':init'; what is uncertain has a probability: "
+                    f"'(probabilistic 0.5 ...)'",
+                    node,
+                )
             case _:
                 self.facts.add(self._fact(node))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from statehtn.hddl.chance_reader import hidden_predicates_in
 from statehtn.hddl.cost_reader import TOTAL_COST
 from statehtn.hddl.diagnostics import Reporter
 from statehtn.hddl.expressions import Group, Word, describe, parse_group
@@ -29,7 +30,7 @@ UNIQUE = (":domain", ":htn", ":goal", ":metric")
 
 
 class ProblemReader:
-    """Reads the file of a problem: its objects when it is made, the rest when the domain is known.
+    """Reads the file of a problem: its objects, and what is hidden, when it is made, the rest when the domain is known.
 
     Args:
         reporter: of the file.
@@ -48,6 +49,8 @@ class ProblemReader:
         self.objects: dict[str, str] = {}
         for start, end in self.sections[":objects"]:
             read_objects(start, end, vocabulary, self.objects, reporter)
+        for start, end in self.sections[":init"]:
+            vocabulary.hidden.update(hidden_predicates_in(start, end, vocabulary, reporter))
 
     def read(self, domain: Domain) -> Problem:
         """Return the problem.
@@ -63,7 +66,8 @@ class ProblemReader:
         state = InitialStateReader(self.vocabulary, self.reporter)
         for start, end in self.sections[":init"]:
             state.read(start, end)
-        return Problem(self.name, domain, self.objects, parameters, network, frozenset(state.facts), state.values, goal)
+        facts, values, chances = frozenset(state.facts), state.values, state.chances
+        return Problem(self.name, domain, self.objects, parameters, network, facts, values, goal, chances)
 
     def _only(self, name: str) -> Group | None:
         return parse_group(self.reporter.source, self.sections[name][0][0]) if self.sections[name] else None

@@ -31,6 +31,7 @@ class Vocabulary:
         objects: the types of the constants and of the problem's objects.
         lent: while the domain is read, the problem's objects: the domain should declare what it names, but may leave
             that to the problem.
+        hidden: the predicates of which the problem's initial state decides facts by chance.
     """
 
     def __init__(self) -> None:
@@ -40,6 +41,7 @@ class Vocabulary:
         self.objects: dict[str, str] = {}
         self.lent: dict[str, str] = {}
         self.predicates: dict[str, Signature] = {}
+        self.hidden: set[str] = set()
         self.functions: dict[str, Signature] = {}
         self.tasks: dict[str, Signature] = {}
         self.actions: dict[str, Signature] = {}

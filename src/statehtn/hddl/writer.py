@@ -33,6 +33,7 @@ from statehtn.model import (
     TaskNetwork,
     TypeHierarchy,
 )
+from statehtn.model.chance import Chance
 from statehtn.model.expect import expect_problem
 
 REQUIREMENTS = (
@@ -91,6 +92,7 @@ def _problem(problem: Problem) -> Iterator[str]:
     yield "  )"
     yield "  (:init"
     yield from (f"    ({' '.join(fact)})" for fact in sorted(problem.initial_state))
+    yield from (f"    {_chance(chance)}" for chance in problem.chances)
     yield from (f"    (= ({' '.join(key)}) {_number(value)})" for key, value in problem.function_values.items())
     yield "  )"
     if problem.goal != TRUE:
@@ -98,6 +100,14 @@ def _problem(problem: Problem) -> Iterator[str]:
     if not problem.domain.has_unit_costs:
         yield f"  (:metric minimize ({TOTAL_COST}))"
     yield ")"
+
+
+def _chance(chance: Chance) -> str:
+    branches = []
+    for outcome in chance.outcomes:
+        facts = (f"({' '.join(fact)})" for fact in sorted(outcome.facts))
+        branches.append(f"{_number(outcome.probability)} ({' '.join(('and', *facts))})")
+    return f"(probabilistic {' '.join(branches)})"
 
 
 def _section(name: str, lines: Iterable[str]) -> Iterator[str]:
@@ -128,7 +138,8 @@ def _parameters(parameters: Iterable[Parameter]) -> str:
 
 
 def _action(action: Action) -> Iterator[str]:
-    effects = [_effect(effect) for effect in action.effects] + [_cost_block(block, action) for block in action.costs]
+    costs = [_cost_block(block, action) for given in action.costs for block in given.by_conditions]
+    effects = [_effect(effect) for effect in action.effects] + costs
     yield f"  (:action {action.name}"
     yield f"    :parameters ({_parameters(action.parameters)})"
     yield f"    :precondition {formula_text(action.precondition)}"

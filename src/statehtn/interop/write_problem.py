@@ -29,6 +29,10 @@ def write_up_problem(problem: Problem) -> tuple[HierarchicalProblem, Vocabulary]
     Raises:
         UnsupportedError: it has something that UP cannot hold; the message says where.
     """
+    if problem.chances:
+        raise UnsupportedError(
+            "facts that are decided by chance and never seen cannot be a part of a problem of unified-planning"
+        )
     names = vocabulary_of(problem)
     environment = get_environment()  # UP's task networks know no other
     up = HierarchicalProblem(problem.name, environment)

@@ -13,6 +13,9 @@ from typing import NoReturn, cast
 from statehtn.errors import UsageError
 from statehtn.model.types import Parameter
 
+Fact = tuple[str, ...]
+"""A ground atom: (predicate, *objects)."""
+
 
 class Combinable:
     """What all formulas can do: `f & g`, `f | g` and `~f`, which flatten what was combined by the same sign before."""

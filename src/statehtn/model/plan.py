@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 from statehtn.counted import counted
 from statehtn.errors import UsageError
 from statehtn.expected import expect, items, whole_number
+from statehtn.model.chance import Scenario
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.cost.sum import sampled_sum, total_cost
+from statehtn.model.cost.scenario_cost import ScenarioCost, sampled_total, total_by_scenario, total_of
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -126,7 +127,10 @@ class Plan:
         return replace(self, costs=laws)
 
     def cost_distribution(self) -> CostLaw:
-        """Return the law of the plan's total cost: positive, in the domain's unit; the actions' are independent.
+        """Return the law of the plan's total cost: positive, in the domain's unit.
+
+        The actions' costs are independent; where some depend on hidden facts, they are so given each scenario, and this
+        is the exact mixture over all scenarios.
 
         It is a `CostDistribution`, exact, where the actions' costs are lists of outcomes and their sum has not more
         than 20,000 different values; the action's own law where only one of them costs anything; otherwise a
@@ -135,7 +139,21 @@ class Plan:
         Raises:
             UsageError: the plan does not know what its steps cost.
         """
-        return total_cost(self._known_costs())
+        return total_of(self._known_costs())
+
+    def cost_distribution_given(self, scenario: Scenario | str | int) -> CostLaw:
+        """Return the law of the plan's total cost where the hidden facts are those of a scenario.
+
+        It is the law of the plan where none of its costs depends on them.
+
+        Args:
+            scenario: one of `problem.scenarios`, its name, or its number from 0.
+
+        Raises:
+            UsageError: the plan does not know what its steps cost, or there is no such scenario.
+        """
+        total = total_by_scenario(self._known_costs())
+        return total.given(scenario) if isinstance(total, ScenarioCost) else total
 
     def simulate(self, runs: int, seed: int = 0) -> NDArray[float64]:
         """Return the total costs of so many independent runs of the plan, drawn by numpy's default generator.
@@ -151,7 +169,7 @@ class Plan:
             raise UsageError(f"the number of runs must be from 1 to {MOST_RUNS}, found {runs}")
         if whole_number(seed, "the seed") < 0:
             raise UsageError(f"the seed must be at least 0, found {seed}")
-        return sampled_sum(self._known_costs(), runs, numpy.random.default_rng(seed))
+        return sampled_total(self._known_costs(), runs, numpy.random.default_rng(seed))
 
     def _known_costs(self) -> tuple[CostLaw, ...]:
         if self.costs is None:

@@ -7,12 +7,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from graphlib import TopologicalSorter
 
+from statehtn.model.chance import Chance, Scenario, scenario_count, scenarios_of
 from statehtn.model.cost.blocks import CostBlock, FunctionValues
 from statehtn.model.formula import TRUE, Atom, Formula
+from statehtn.model.formula import Fact as Fact
 from statehtn.model.types import Parameter, TypeHierarchy
-
-Fact = tuple[str, ...]
-"""A ground atom: (predicate, *objects)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,9 +126,11 @@ class Problem:
         objects: the problem's own objects with their types; constants of the domain are not repeated.
         parameters: variables of the initial network, to be bound to any objects.
         network: the tasks to accomplish, and their order.
-        initial_state: the facts that are true; all others are false.
+        initial_state: the facts that are true; all others are false, but for hidden ones.
         function_values: values for cost expressions.
         goal: a formula over facts that must hold in the end, besides the network being accomplished.
+        chances: what is decided by chance before a plan begins and is never seen: hidden facts, which only conditions
+            of costs read.
     """
 
     name: str
@@ -140,6 +141,16 @@ class Problem:
     initial_state: frozenset[Fact] = frozenset()
     function_values: FunctionValues = field(default_factory=dict)
     goal: Formula = TRUE
+    chances: tuple[Chance, ...] = ()
+
+    @cached_property
+    def scenarios(self) -> tuple[Scenario, ...]:
+        """What the chances may turn out to be together; none where nothing is decided by chance.
+
+        Raises:
+            UnsupportedError: there are too many.
+        """
+        return scenarios_of(self.chances)
 
     @cached_property
     def all_objects(self) -> dict[str, str]:
@@ -164,4 +175,6 @@ class Problem:
 
     def __repr__(self) -> str:
         counts = f"objects {len(self.all_objects)}, facts {len(self.initial_state)}, tasks {len(self.network.subtasks)}"
+        if self.chances:
+            counts += f", scenarios {scenario_count(self.chances)}"
         return f"<problem '{self.name}': {counts}; in {self.domain!r}>"

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from statehtn.model.cost.ground_cost import action_law, is_unconditional
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.formula import TRUE
+from statehtn.model.formula import TRUE, predicates
 from statehtn.model.plan import Plan, Step
 from statehtn.model.problem import Action, Effect, Fact
 from statehtn.model.types import Parameter
@@ -21,6 +21,7 @@ from statehtn.semantics.world import World, substitute
 
 DueParts = tuple[tuple[int, tuple[str, ...]], ...]
 """The conditional parts of a cost that are due: (index of the block, objects of its variables)."""
+NOTHING: frozenset[Fact] = frozenset()
 NO_EFFECTS: tuple[frozenset[Fact], frozenset[Fact]] = (frozenset(), frozenset())
 
 
@@ -100,6 +101,11 @@ class _LiftedAction:
             for index, block in enumerate(action.costs)
             if not is_unconditional(block)
         ]
+        read = {name for _, block, _ in self.costs for name in predicates(block.condition)}
+        self.hidden = [
+            frozenset(fact for fact in scenario.facts if fact[0] in read) for scenario in world.problem.scenarios
+        ] or [NOTHING]
+        """For each scenario what the costs read of it; once nothing where there are none."""
 
 
 class _GroundAction:
@@ -112,7 +118,7 @@ class _GroundAction:
         self._bindings = {p.name: name for p, name in zip(action.parameters, step.arguments, strict=True)}
         self.wrong_arguments = wrong_arguments(action.parameters, step.arguments, lifted.world)
         self.precondition = lifted.precondition.ground(self._bindings)
-        self._costs: dict[DueParts, CostLaw] = {}
+        self._costs: dict[tuple[DueParts, ...], CostLaw] = {}
         certain = [(effect, condition) for effect, condition in lifted.effects if effect.condition == TRUE]
         added, deleted = _changes(certain, self._bindings, NOWHERE)
         self._certain = added, deleted - added
@@ -137,15 +143,17 @@ class _GroundAction:
     def cost(self, history: History) -> CostLaw:
         """Return the law of its cost in the last state."""
         lifted = self._lifted
-        due: DueParts = self._due_parts(history.at(history.end)) if lifted.costs else ()
+        due = self._due_parts(history) if lifted.costs else ((),) * len(lifted.hidden)
         if due not in self._costs:
-            problem = lifted.world.problem
-            self._costs[due] = action_law(
-                lifted.action, self._step.arguments, due, problem.function_values, problem.domain.has_unit_costs
-            )
+            self._costs[due] = action_law(lifted.action, self._step.arguments, due, lifted.world.problem)
         return self._costs[due]
 
-    def _due_parts(self, state: State) -> DueParts:
+    def _due_parts(self, history: History) -> tuple[DueParts, ...]:
+        """Return the conditional parts of its cost that are due in the last state, in each scenario."""
+        known = {hidden: self._due_in(history.at(history.end, hidden)) for hidden in set(self._lifted.hidden)}
+        return tuple(known[hidden] for hidden in self._lifted.hidden)
+
+    def _due_in(self, state: State) -> DueParts:
         return tuple(
             (index, objects)
             for index, block, condition in self._lifted.costs

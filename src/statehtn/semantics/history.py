@@ -43,9 +43,9 @@ class History:
             flips.append(self.end)
         self.now ^= changed
 
-    def at(self, time: int) -> State:
-        """Return a view of one state."""
-        return State(self, time)
+    def at(self, time: int, hidden: frozenset[Fact] = frozenset()) -> State:
+        """Return a view of one state, in which hidden facts hold, too."""
+        return State(self, time, hidden)
 
     def holds(self, fact: Fact, time: int) -> bool:
         """Tell whether a fact is true in a state."""
@@ -106,15 +106,17 @@ def _between(times: list[int], after: int, until: int) -> Iterator[int]:
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """One state of a history."""
+    """One state of a history, and the hidden facts that hold in all of it."""
 
     history: History
     time: int
+    hidden: frozenset[Fact]
 
     def holds(self, fact: Fact) -> bool:
         """Tell whether a fact is true."""
-        return self.history.holds(fact, self.time)
+        return fact in self.hidden or self.history.holds(fact, self.time)
 
     def candidates(self, predicate: str, known: Iterable[tuple[int, str]]) -> list[Fact]:
         """Return facts of a predicate, among them all that are true with these objects in these positions."""
-        return self.history.candidates(predicate, known)
+        found = self.history.candidates(predicate, known)
+        return [*found, *(fact for fact in self.hidden if fact[0] == predicate)] if self.hidden else found

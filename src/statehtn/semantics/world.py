@@ -7,6 +7,7 @@ from typing import TypeVar
 
 from statehtn.limits import Limits
 from statehtn.model.formula import is_variable
+from statehtn.model.hidden import check_that_costs_alone_read
 from statehtn.model.problem import Problem
 
 UNITS = 1024  # of work between two looks at the limits: well below a tenth of a second
@@ -15,9 +16,14 @@ Item = TypeVar("Item")
 
 
 class World:
-    """A problem, which of its objects are of which types, and the limits that hold while a plan is judged."""
+    """A problem, which of its objects are of which types, and the limits that hold while a plan is judged.
+
+    Raises:
+        UnsupportedError: something else than the condition of a cost reads hidden facts.
+    """
 
     def __init__(self, problem: Problem, limits: Limits = Limits()) -> None:
+        check_that_costs_alone_read(problem)
         self.problem = problem
         self.limits = limits
         self._members: dict[tuple[str, ...], dict[str, None]] = {}

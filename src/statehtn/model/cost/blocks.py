@@ -16,7 +16,7 @@ from statehtn.errors import Place, UsageError
 from statehtn.model.cost.distribution import PROBABILITY_TOLERANCE as PROBABILITY_TOLERANCE
 from statehtn.model.cost.distribution import CostDistribution as CostDistribution
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.formula import TRUE, Formula
+from statehtn.model.formula import TRUE, Atom, Fact, Formula
 from statehtn.model.types import Parameter
 
 Amount = float | Fraction | Decimal
@@ -104,6 +104,9 @@ Expression = Number | FunctionTerm | Arithmetic
 ExternalCost = Callable[..., "float | CostLaw"]
 
 
+NO_COST = CostDistribution.certain(0.0)
+
+
 @dataclass(frozen=True, slots=True)
 class CostBlock:
     """One independent part of an action's cost, due in the states where its condition holds.
@@ -118,6 +121,8 @@ class CostBlock:
             names).
         place: where the block stands in a file, for errors that only show in a ground action; None where there is none.
         law: the cost where no short list of outcomes states it, instead of the branches.
+        cases: the cost instead of the branches where it depends on which one of several hidden facts holds, at most one
+            of them in each scenario; without any of them it is 0.
     """
 
     branches: tuple[tuple[Expression, Expression], ...]
@@ -126,6 +131,21 @@ class CostBlock:
     external: ExternalCost | None = None
     place: Place | None = field(default=None, compare=False, repr=False)
     law: CostLaw | None = None
+    cases: Mapping[Fact, CostLaw] = field(default_factory=dict, hash=False)
+
+    def case(self, hidden: frozenset[Fact]) -> CostLaw:
+        """Return the law of the case whose fact is one of the hidden facts that hold."""
+        return next((self.cases[fact] for fact in hidden if fact in self.cases), NO_COST)
+
+    @property
+    def by_conditions(self) -> tuple[CostBlock, ...]:
+        """The block itself; in the place of cases a block for each of them, due where its fact holds."""
+        if not self.cases:
+            return (self,)
+        return tuple(
+            replace(self, cases={}, law=law, condition=self.condition & Atom(fact[0], fact[1:]))
+            for fact, law in self.cases.items()
+        )
 
     @property
     def listed(self) -> CostBlock:

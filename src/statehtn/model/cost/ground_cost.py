@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -16,12 +16,13 @@ from statehtn.errors import InputError, StateHtnError
 from statehtn.model.cost.blocks import Arithmetic, CostBlock, Expression, FunctionTerm, FunctionValues, Number
 from statehtn.model.cost.distribution import PROBABILITY_TOLERANCE, CostDistribution
 from statehtn.model.cost.law import CostLaw, is_of_scipy
+from statehtn.model.cost.scenario_cost import by_scenario
 from statehtn.model.cost.sum import CostSum
 from statehtn.model.cost.unknown import MissingNumber
-from statehtn.model.formula import TRUE
+from statehtn.model.formula import TRUE, Fact
 
 if TYPE_CHECKING:
-    from statehtn.model.problem import Action
+    from statehtn.model.problem import Action, Problem
 
 UNIT_COST = CostDistribution.certain(1.0)
 """What every action costs where the domain states no costs at all."""
@@ -32,6 +33,9 @@ LARGEST_SHOWN = 10**300  # a float can hold it
 MOST_OUTCOMES = 256
 MOST_PAIRS = 1024
 """An action whose parts together have more outcomes, or more combinations, has a sum of laws as its law."""
+
+Blocks = Iterable[tuple[int, tuple[str, ...]]]
+"""Some cost blocks of a ground action: (index in `Action.costs`, objects of the block's variables)."""
 
 ExactLaw = dict[Fraction, Fraction]
 """A cost distribution in exact numbers: the probability of every cost; the probabilities sum to exactly 1."""
@@ -73,7 +77,12 @@ def evaluate(expression: Expression, bindings: Mapping[str, str], values: Functi
 
 
 def block_law(
-    block: CostBlock, action: Action, arguments: tuple[str, ...], objects: tuple[str, ...], values: FunctionValues
+    block: CostBlock,
+    action: Action,
+    arguments: tuple[str, ...],
+    objects: tuple[str, ...],
+    values: FunctionValues,
+    hidden: frozenset[Fact] = frozenset(),
 ) -> CostLaw:
     """Return the law of one cost block of a ground action, in a state where its condition holds.
 
@@ -83,57 +92,88 @@ def block_law(
         arguments: one object for each parameter of the action; an external cost is called with them.
         objects: one object for each of the block's own parameters.
         values: the function values of `:init`.
+        hidden: the hidden facts that hold.
 
     Raises:
         MissingNumber: a function value is missing.
         InputError: a cost or probability is negative, or the probabilities sum to more than 1. The messages name the
             ground action.
     """
-    part = _block(block, action, arguments, objects, values)
+    part = _block(block, action, arguments, objects, values, hidden)
     return part if isinstance(part, CostLaw) else _rounded(part, action, arguments)
 
 
 def action_law(
     action: Action,
     arguments: tuple[str, ...],
-    active_parts: Iterable[tuple[int, tuple[str, ...]]],
-    values: FunctionValues,
-    unit_costs: bool,
+    active_parts: Sequence[Blocks],
+    problem: Problem,
 ) -> CostLaw:
-    """Return the law of a ground action's whole cost: the sum of its independent parts.
+    """Return the law of a ground action's whole cost: the sum of its independent parts, in each scenario.
 
     Args:
         action: the lifted action.
         arguments: one object for each parameter.
-        active_parts: the conditional parts that are due, as (index in `action.costs`, objects for that block's
-            parameters). Blocks without condition and parameters are always due and not listed.
-        values: the function values of `:init`.
-        unit_costs: the domain states no costs at all, so that every action costs 1.
+        active_parts: the conditional parts that are due in each scenario, once where there are none. Blocks without
+            condition and parameters are always due and not listed.
+        problem: the problem; where its domain states no costs at all, every action costs 1.
 
     Raises:
         InputError: as `block_law`.
     """
-    if unit_costs:
+    if problem.domain.has_unit_costs:
         return UNIT_COST
-    always: list[tuple[int, tuple[str, ...]]] = [
-        (index, ()) for index, block in enumerate(action.costs) if is_unconditional(block)
-    ]
-    return sum_of_blocks(action, arguments, [*always, *active_parts], values)
+    always = [(index, ()) for index, block in enumerate(action.costs) if is_unconditional(block)]
+    return sum_of_blocks(action, arguments, [(*always, *parts) for parts in active_parts], problem)
 
 
 def sum_of_blocks(
     action: Action,
     arguments: tuple[str, ...],
-    blocks: Iterable[tuple[int, tuple[str, ...]]],
-    values: FunctionValues,
+    blocks: Sequence[Blocks],
+    problem: Problem,
 ) -> CostLaw:
-    """Return the law of the sum of some of a ground action's independent cost blocks.
+    """Return the law of the sum of some of a ground action's cost blocks, which are independent in each scenario.
 
     Args:
         action: the lifted action.
         arguments: one object for each parameter.
-        blocks: which, as (index in `action.costs`, objects for that block's parameters).
+        blocks: which, for each scenario of the problem, once where it has none.
+        problem: has the scenarios, and the function values of `:init`.
+
+    Raises:
+        InputError: as `block_law`.
+    """
+    if not problem.scenarios:
+        (only,) = blocks
+        return sum_in_scenario(action, arguments, only, problem.function_values)
+    known: dict[object, CostLaw] = {}
+    laws: list[CostLaw] = []
+    for scenario, given in zip(problem.scenarios, blocks, strict=True):
+        due = tuple(given)
+        decided = [index for index, _ in due if action.costs[index].cases]
+        key = due, tuple(action.costs[index].case(scenario.facts) for index in decided)
+        if key not in known:
+            known[key] = sum_in_scenario(action, arguments, due, problem.function_values, scenario.facts)
+        laws.append(known[key])
+    return by_scenario(problem.scenarios, laws)
+
+
+def sum_in_scenario(
+    action: Action,
+    arguments: tuple[str, ...],
+    blocks: Blocks,
+    values: FunctionValues,
+    hidden: frozenset[Fact] = frozenset(),
+) -> CostLaw:
+    """Return the law of the sum of some of a ground action's independent cost blocks where these hidden facts hold.
+
+    Args:
+        action: the lifted action.
+        arguments: one object for each parameter.
+        blocks: which.
         values: the function values of `:init`.
+        hidden: the hidden facts that hold.
 
     Raises:
         InputError: as `block_law`.
@@ -142,7 +182,7 @@ def sum_of_blocks(
     exact: list[ExactLaw] = []
     others: list[CostLaw] = []
     for index, objects in blocks:
-        part = _block(action.costs[index], action, arguments, objects, values)
+        part = _block(action.costs[index], action, arguments, objects, values, hidden)
         if isinstance(part, CostLaw):
             others.append(part)
         else:
@@ -183,9 +223,16 @@ def is_unconditional(block: CostBlock) -> bool:
 
 
 def _block(
-    block: CostBlock, action: Action, arguments: tuple[str, ...], objects: tuple[str, ...], values: FunctionValues
+    block: CostBlock,
+    action: Action,
+    arguments: tuple[str, ...],
+    objects: tuple[str, ...],
+    values: FunctionValues,
+    hidden: frozenset[Fact],
 ) -> ExactLaw | CostLaw:
     """Return one block's cost: exact outcomes, or the law where it is no list of outcomes."""
+    if block.cases:
+        return block.case(hidden)
     if block.law is not None:
         return block.law
     if block.external is not None:
