@@ -142,7 +142,7 @@ class ScenarioCost(CostLaw):
         if checked_probability(level, "the level of the CVaR") in (0, 1):
             return self.most if level else self.mean
         quantile = self.quantile(level)
-        return quantile + self._mean_of(lambda law: _excess(law, quantile)) / (1 - level)
+        return quantile + self.expected_overrun(quantile) / (1 - level)
 
     def exponential_mean(self, slope: float) -> float:
         """Return `ln E[e^(slope C)] / slope`, where the mean of a scenario's is taken over all scenarios."""
@@ -155,6 +155,14 @@ class ScenarioCost(CostLaw):
     def exponential_mean_error(self, slope: float) -> float:
         """Return the error of `exponential_mean` beyond rounding: at most the largest of a scenario's."""
         return max(law.exponential_mean_error(slope) for law in self.laws)
+
+    def expectation(self, function: Callable[[float], float]) -> float:
+        """Return the expected value of a function of the cost."""
+        return self._mean_of(lambda law: law.expectation(function))
+
+    def expected_overrun(self, budget: float) -> float:
+        """Return `E max(C - budget, 0)`: what is paid above a budget, in the mean over all cases."""
+        return self._mean_of(lambda law: law.expected_overrun(budget))
 
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs, each in a scenario of its own, with a generator of numpy."""
@@ -222,9 +230,3 @@ def sampled_total(laws: Sequence[CostLaw], runs: int, generator: Generator) -> N
 
     total = _in_each_scenario(laws, lambda given: CostSum(tuple(given)))
     return total.sample(runs, generator) if laws else numpy.zeros(runs)
-
-
-def _excess(law: CostLaw, budget: float) -> float:
-    """Return `E[max(C - budget, 0)]`."""
-    kept = law.cdf(budget)
-    return 0.0 if kept >= 1 else (1 - kept) * max(0.0, law.cvar(kept) - budget)
