@@ -111,8 +111,13 @@ class Semantics:
 
     def law(self, name: str, arguments: tuple[str, ...], state: State | None) -> CostDistribution:
         """The law of the cost of an action that is executed in a state; without a state, of the part always due."""
+        law = self.exact_law(name, arguments, state)
+        return CostDistribution.of((float(probability), float(cost)) for cost, probability in law.items())
+
+    def exact_law(self, name: str, arguments: tuple[str, ...], state: State | None) -> Law:
+        """The same, with the probability of each cost as a fraction."""
         if not any(action.costs for action in self.domain.actions.values()):
-            return CostDistribution.certain(1.0)
+            return {Fraction(1): Fraction(1)}
         action = self.domain.actions[name]
         bindings = self.bind(action, arguments)
         assert bindings is not None
@@ -122,7 +127,7 @@ class Semantics:
                 inner = {**bindings, **more}
                 if block.condition == TRUE or (state is not None and self.holds(block.condition, inner, state)):
                     law = add(law, self.block_law(block, arguments, inner))
-        return CostDistribution.of((float(probability), float(cost)) for cost, probability in law.items())
+        return law
 
     def block_law(self, block: CostBlock, arguments: tuple[str, ...], bindings: Bindings) -> Law:
         if block.external is not None:
