@@ -10,6 +10,10 @@ namespace relax {
 
 namespace {
 
+// In operators that a heuristic looks at; by time, roughly.
+constexpr std::uint64_t kWorkOfALabel = 200;
+constexpr std::uint64_t kWorkOfAModel = 100;  // for each action and method
+
 // By ActionId: actions that certainly cost nothing, and may be executed at once: between sequences, where order makes a
 // difference, those without a name.
 std::vector<bool> free_actions(std::span<const PricedProblem* const> prices,
@@ -50,7 +54,6 @@ LabelSearch::LabelSearch(const AnalysedProblem& problem, Valuation& valuation,
       cutoff_(std::min(valuation.most(), options.upper_bound.value_or(kNoWorth))) {
     for (const PricedProblem* const priced : valuation_.prices()) {
         bounds_.emplace_back(progression_.networks(), priced->task_bounds(limits_));
-        heuristics_.push_back(options_.heuristic->make(*priced, limits_));
     }
     valuation_.begin(progression_.networks(), limits_);
     valuation_.set_cutoff(cutoff_);
@@ -141,7 +144,7 @@ bool LabelSearch::keeps_bound(LabelId id) {
             }
             return false;
         }
-        if (node.asked < heuristics_.size()) {
+        if (node.asked < heuristics_.size() || asks_from_now_on()) {
             ask(node);
         } else if (label.stage + 1 < valuation_.stages()) {
             ++label.stage;
@@ -151,15 +154,32 @@ bool LabelSearch::keeps_bound(LabelId id) {
     }
 }
 
-// Ask the heuristic at the next prices about the node. What is a dead end at some prices is one at all.
+// Heuristics are made when the search has taken as long as that takes, or so: many a problem is solved by then.
+bool LabelSearch::asks_from_now_on() {
+    const std::uint64_t model = options_.heuristic->has_model ? problem_.action_count() + problem_.method_count() : 0;
+    if (!heuristics_.empty() || work() < kWorkOfAModel * model * valuation_.prices().size()) {
+        return false;
+    }
+    for (const PricedProblem* const priced : valuation_.prices()) {
+        heuristics_.emplace_back(options_.heuristic->make(*priced, limits_), !options_.selective);
+    }
+    return true;
+}
+
+// Ask the heuristic at the next prices about the node, if it is worth it. What is a dead end at some prices is one.
 void LabelSearch::ask(LabelSpace::Node& node) {
     const std::size_t price = node.asked++;
+    SelectiveHeuristic& heuristic = heuristics_[price];
+    if (!heuristic.is_worth_asking()) {
+        return;
+    }
     NodeView view = progression_.view(node.state, node.network);
     view.tdg_bound = bounds_[price][node.network];
-    const std::uint64_t cuts_before = heuristics_[price]->rounds();
-    const auto h = heuristics_[price]->evaluate(view);
+    const std::uint64_t cuts_before = heuristic->rounds();
+    const auto h = heuristic->evaluate(view);
     ++statistics_.evaluated;
-    statistics_.cuts += heuristics_[price]->rounds() - cuts_before;
+    statistics_.cuts += heuristic->rounds() - cuts_before;
+    heuristic.note_answer(!h || *h > node.least[price], work() / std::max<std::uint64_t>(1, statistics_.expanded));
     if (!h) {
         ++statistics_.dead_ends;
         std::ranges::fill(node.least, kInfinity);
@@ -168,6 +188,9 @@ void LabelSearch::ask(LabelSpace::Node& node) {
     }
     node.least[price] = std::max(node.least[price], *h);
 }
+
+// Of the search itself, in operators that a heuristic looks at.
+std::uint64_t LabelSearch::work() const { return statistics_.generated * kWorkOfALabel + progression_.work(); }
 
 void LabelSearch::expand(LabelId id) {
     labels_[id].is_expanded = true;

@@ -34,6 +34,8 @@ class BoundSwitches(ProgressionSwitches):
 class TopSwitches(BoundSwitches):
     """Refinements of the search for the best plans; stubborn sets are for plans that are multisets."""
 
+    selective: bool = True
+    """Ask the heuristic rarely while it rarely exceeds the cheap bounds."""
     limits_labels: bool = True
     """Keep at most k labels at every node."""
 

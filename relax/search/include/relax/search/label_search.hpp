@@ -3,13 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
-#include "relax/heuristics/heuristic.hpp"
+#include "relax/heuristics/selective_heuristic.hpp"
 #include "relax/networks/network_bounds.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/action_lists.hpp"
@@ -41,7 +40,8 @@ struct LabelSearchResult {
 //
 // Actions of the domain have names; precondition actions have none and do not count, nor do different decompositions.
 // A label is open until its bound is the least. Heuristics belong to nodes, one for each vector of prices: they are
-// asked about the node of the label that is popped, one after the other, as long as its bound does not rise.
+// asked about the node of the label that is popped, one after the other, as long as its bound does not rise, and as
+// long as that pays.
 //
 // A label's bound is at least its parent's: each completion of the label is one of the parent. It ends when no open
 // label has a bound below what is still wanted; so the first plan, once nothing open is better, is the best there is.
@@ -60,7 +60,9 @@ public:
 private:
     std::optional<StopReason> search();
     bool keeps_bound(LabelId id);
+    bool asks_from_now_on();
     void ask(LabelSpace::Node& node);
+    std::uint64_t work() const;
     void expand(LabelId id);
     void find_edges(NodeId node);
     void inherit(NodeId parent, const Edge& edge);
@@ -81,8 +83,8 @@ private:
     Limits& limits_;
     LabelStatistics& statistics_;
     Progression progression_;
-    std::vector<NetworkBounds> bounds_;                   // by price
-    std::vector<std::unique_ptr<Heuristic>> heuristics_;  // by price
+    std::vector<NetworkBounds> bounds_;           // by price
+    std::vector<SelectiveHeuristic> heuristics_;  // by price, once they are asked
     ActionLists lists_;
     LabelSpace labels_;
     OpenList<LabelId> open_;

@@ -74,6 +74,7 @@ struct LabelSearchOptions : ProgressionSwitches, BoundSwitches {     // stubborn
     // Where worths are values: plans that are better by less are not asked for, in parts of a value, or of 1 if that is
     // more. Bounds are rounded down, so that all ways to plans that are equally good would have to be followed.
     double tolerance = 0;
+    bool selective = true;      // ask the heuristic rarely while it exceeds the cheap bounds rarely
     bool limits_labels = true;  // leave out labels where as many as plans are wanted are as good
 
     bool tells_sequences() const { return count > 1 && distinct == Distinct::Sequence; }
