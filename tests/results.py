@@ -9,12 +9,10 @@ from typing import Any
 import statehtn
 from statehtn.experiments.record_files import RecordFiles
 from statehtn.experiments.records import Record
-from statehtn.experiments.report.results import Agent
 from statehtn.experiments.run import Instance, Run
-from statehtn.risk import utility_for
+from statehtn.risk import objective
 from statehtn.settings import Settings
 
-NEUTRAL: Agent = ("neutral", None)
 Outcomes = Sequence[tuple[float, float]]
 
 
@@ -26,16 +24,16 @@ def write(path: Path, records: Iterable[Record]) -> Path:
     return path
 
 
-def planned(problem: statehtn.Problem, domain: str, name: str, agent: Agent = NEUTRAL, **options: Any) -> Record:
+def planned(problem: statehtn.Problem, domain: str, name: str, agent: str = "neutral", **options: Any) -> Record:
     """Plan in this process, and return the record of it."""
-    result = statehtn.plan(problem, attitude=agent[0], alpha=agent[1], **options)
+    result = statehtn.plan(problem, objective=agent, **options)
     return record(domain, name, agent, solver=result.solver, heuristic=result.heuristic, result=result.to_dict())
 
 
 def invented(
     domain: str = "errands",
     problem: str = "p1",
-    agent: Agent = NEUTRAL,
+    agent: str = "neutral",
     *,
     status: str = "optimal",
     laws: Sequence[Outcomes] | None = ([(0.8, 2.0), (0.2, 9.0)],),
@@ -53,6 +51,7 @@ def invented(
         "plan": plan,
         "length": plan and len(plan),
         "risk_cost": plan and risk_cost,
+        "value": plan and risk_cost,
         "lower_bound": lower_bound,
         "expected_cost": plan and sum(p * cost for law in laws or () for p, cost in law),
         "expected_utility": plan and str(-risk_cost),
@@ -64,7 +63,7 @@ def invented(
 def record(
     domain: str,
     problem: str,
-    agent: Agent,
+    agent: str,
     *,
     solver: str = "state",
     heuristic: str = "auto",
@@ -74,7 +73,7 @@ def record(
     result: dict[str, Any] | None = None,
 ) -> Record:
     """Return the record of a run with this result."""
-    settings = Settings(utility_for(*agent), solver, heuristic, search, 1.0, "fewest")
+    settings = Settings(objective(agent), solver, heuristic, search, 1.0, "fewest")
     run = Run(Instance(domain, problem, "d", "p"), settings, repeat, 60.0, 4000.0)
     status = status or (result or {}).get("status", "error")
     return Record(run, status, 0, 1.0, "", result, machine="laptop", version=statehtn.__version__)

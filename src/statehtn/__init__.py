@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
     from statehtn.build.joint_samples import read_joint_samples
+    from statehtn.compatible import SOLVERS
     from statehtn.core.heuristics import HEURISTICS
     from statehtn.core.progress import Progress, TopProgress
     from statehtn.core.searches import SEARCHES
@@ -62,7 +63,6 @@ if TYPE_CHECKING:
         utility_for,
     )
     from statehtn.risk.elicitation import Elicited, alpha_of
-    from statehtn.settings import SOLVERS
     from statehtn.tabulate import tabulate_costs
     from statehtn.top_result import RankedPlan, TopPlans
     from statehtn.validation import Validation
@@ -153,6 +153,7 @@ _MODULES_FOR_LATER = {
     "build.cost_file": ("read_costs",),
     "build.cost_table": ("CostTable",),
     "build.joint_samples": ("read_joint_samples",),
+    "compatible": ("SOLVERS",),
     "core.heuristics": ("HEURISTICS",),
     "core.progress": ("Progress", "TopProgress"),
     "core.searches": ("SEARCHES",),
@@ -193,7 +194,6 @@ _MODULES_FOR_LATER = {
         "utility_for",
     ),
     "risk.elicitation": ("Elicited", "alpha_of"),
-    "settings": ("SOLVERS",),
     "tabulate": ("tabulate_costs",),
     "top_result": ("RankedPlan", "TopPlans"),
     "validation": ("Validation",),

@@ -1,4 +1,4 @@
-"""What agents of several attitudes do with one problem, where their plans part, and what each would cost the others."""
+"""What agents of several objectives do with one problem, where their plans part, and what each is worth to others."""
 
 from __future__ import annotations
 
@@ -9,10 +9,23 @@ from typing import Any
 
 from statehtn.errors import UsageError
 from statehtn.expected import items, number, one_of, whole_number
-from statehtn.found_plan import PricedStep
+from statehtn.found_plan import PricedStep, value_of
 from statehtn.model.status import Status
 from statehtn.result import Result
-from statehtn.risk import Attitude, AttitudeName, Utility, agent_name, agent_order, agents_of, plan_risk_cost
+from statehtn.risk import (
+    AdditiveObjective,
+    Attitude,
+    AttitudeName,
+    Objective,
+    ObjectiveLike,
+    Utility,
+    ValueUnit,
+    agent_name,
+    agent_order,
+    agents_of,
+    plan_risk_cost,
+)
+from statehtn.settings import objective_of
 
 Cells = tuple["PricedStep | None", ...]
 
@@ -24,14 +37,15 @@ class Difference:
     Args:
         own: the actions of the one plan; may be empty.
         other: those of the other plan in their place; may be empty.
-        own_cost: the certainty equivalent of `own`, in the domain's unit.
+        own_cost: the certainty equivalent of `own`, in the domain's unit; None where the agent has no price for a part
+            of a plan.
         other_cost: the same agent's certainty equivalent of `other`.
     """
 
     own: tuple[PricedStep, ...]
     other: tuple[PricedStep, ...]
-    own_cost: float
-    other_cost: float
+    own_cost: float | None
+    other_cost: float | None
 
     def to_dict(self) -> dict[str, Any]:
         """Return the difference as plain data; actions as they stand in a plan."""
@@ -45,10 +59,13 @@ class Difference:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class AttitudeComparison:
-    """The plans of several agents for one problem; prints them side by side, with what each would cost the others.
+    """The plans of several agents for one problem; prints them side by side, with what each is worth to the others.
+
+    An agent is somebody with an objective.
 
     Args:
-        results: one for each agent, from the most averse to the most seeking.
+        results: one for each agent: in the order that was asked for, of attitudes from the most averse to the most
+            seeking.
     """
 
     results: tuple[Result, ...]
@@ -58,8 +75,8 @@ class AttitudeComparison:
 
     @property
     def agents(self) -> tuple[str, ...]:
-        """The names of the agents, such as `averse 0.9`."""
-        return tuple(agent_name(result.utility) for result in self.results)
+        """The names of the agents, such as `averse 0.9` or `cvar 0.95`."""
+        return tuple(agent_name(result.objective) for result in self.results)
 
     @property
     def stopped(self) -> Status | None:
@@ -67,14 +84,24 @@ class AttitudeComparison:
         return self.results[-1].stopped
 
     @property
-    def risk_costs(self) -> tuple[tuple[float | None, ...], ...]:
-        """What the plan of each agent (first index) costs each agent (second): certainty equivalents.
+    def values(self) -> tuple[tuple[float | None, ...], ...]:
+        """What the plan of each agent (first index) is worth to each agent (second), in the unit of the second.
 
         None where there is no plan. No value of a column is below the one on the diagonal, if that plan is optimal.
         """
+        wanted = [result.objective for result in self.results]
         return tuple(
-            tuple(self._price(result.steps, other) if result else None for other in self.results)
+            tuple(None if result.plan is None else value_of(result.plan, other) for other in wanted)
             for result in self.results
+        )
+
+    @property
+    def risk_costs(self) -> tuple[tuple[float | None, ...], ...]:
+        """The values that are costs: certainty equivalents of the plan of each agent (first) to each (second)."""
+        units = [result.objective.unit for result in self.results]
+        return tuple(
+            tuple(value if unit is ValueUnit.COST else None for value, unit in zip(row, units, strict=True))
+            for row in self.values
         )
 
     @property
@@ -91,7 +118,8 @@ class AttitudeComparison:
     def differences(self, agent: int, other: int) -> tuple[Difference, ...]:
         """Return where the plan of an agent parts from another's, priced by the first; indices into `results`.
 
-        The differences between the costs add up to the difference between the prices of the two plans.
+        Where the first has prices for parts of a plan, the differences between the costs add up to the difference
+        between the values of the two plans.
 
         Raises:
             UsageError: there is no such agent.
@@ -115,8 +143,12 @@ class AttitudeComparison:
         pairs = [(agent, other) for agent in range(len(self.results)) for other in range(len(self.results))]
         prices = self.risk_costs
         return {
-            "agents": [{"attitude": result.attitude, "alpha": result.alpha} for result in self.results],
+            "agents": [
+                {"attitude": result.attitude, "alpha": result.alpha, "objective": str(result.objective)}
+                for result in self.results
+            ],
             "results": [result.to_dict() for result in self.results],
+            "values": [list(row) for row in self.values],
             "risk_costs": [list(row) for row in prices],
             "differences": [
                 {
@@ -141,8 +173,32 @@ class AttitudeComparison:
 
         return comparison_html(self)
 
-    def _price(self, steps: Sequence[PricedStep], agent: Result) -> float:
-        return plan_risk_cost((priced.law for priced in steps), agent.utility)
+    def _price(self, steps: Sequence[PricedStep], agent: Result) -> float | None:
+        objective = agent.objective
+        if not isinstance(objective, AdditiveObjective):
+            return None
+        return plan_risk_cost((priced.law for priced in steps), objective)
+
+
+def compared_objectives(
+    alpha: float | Iterable[float] | None,
+    attitudes: Iterable[Attitude | AttitudeName] | None = None,
+    objectives: Iterable[ObjectiveLike] | None = None,
+) -> list[Objective]:
+    """Return what is compared, each once: the objectives in their order, or agents of these attitudes, see there.
+
+    Raises:
+        UsageError: one of them is none, they are given in two ways, or there are none.
+    """
+    if objectives is None:
+        agents = compared_agents(1.0 if alpha is None else alpha, tuple(Attitude) if attitudes is None else attitudes)
+        return list(agents)
+    if alpha is not None or attitudes is not None:
+        raise UsageError("compare either objectives or attitudes with alphas; the objective 'averse 0.9' says both")
+    listed = [objectives] if isinstance(objectives, str) else items(objectives, "'objectives'")
+    if not listed:
+        raise UsageError("there are no objectives to compare; give some, such as 'neutral' and 'cvar 0.95'")
+    return list(dict.fromkeys(objective_of(wanted) for wanted in listed))
 
 
 def compared_agents(alpha: float | Iterable[float], attitudes: Iterable[Attitude | AttitudeName]) -> list[Utility]:

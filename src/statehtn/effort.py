@@ -70,6 +70,17 @@ class Statistics:
         """Nodes that were found to lead to no plan."""
         return None if self.search is None else self.search.dead_ends
 
+    def and_search(self, other: Statistics) -> Statistics:
+        """Return this effort with that of a further search of the same problem."""
+        efforts = [one for one in (self.search, other.search) if one is not None]
+        return replace(
+            self,
+            search=sum(efforts, SearchEffort()) if efforts else None,
+            search_seconds=(self.search_seconds or 0.0) + (other.search_seconds or 0.0),
+            validate_seconds=(self.validate_seconds or 0.0) + (other.validate_seconds or 0.0),
+            peak_memory_mb=other.peak_memory_mb,
+        )
+
     @property
     def sizes(self) -> str:
         """What was grounded in words, such as `2 facts, 1 action, 1 task, 2 methods`; empty where nothing was."""

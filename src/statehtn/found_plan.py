@@ -16,14 +16,39 @@ from statehtn.model.cost.unknown import refuse_unknown
 from statehtn.model.plan import MOST_SHOWN, Plan, Step
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.risk import Utility
+from statehtn.risk import AdditiveObjective, Keep, Objective, agent_in, certainty_equivalent, plan_risk_cost
 from statehtn.validation import validate
 
 SECONDS_TO_VALIDATE = 0.2
 """A plan that is found right before the time is over is given that long: enough for some thousands of steps."""
 
-PRICES = ("plan", "length", "expected_cost", "risk_cost", "expected_utility", "log10_expected_utility")
+PRICES = ("plan", "length", "expected_cost", "risk_cost", "expected_utility", "log10_expected_utility", "value")
 """What the JSON objects say of a plan."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A budget that plans have to keep with a probability, and the probability with which it is kept.
+
+    Args:
+        budget: in the domain's unit.
+        probability: with which the total cost must not exceed it, at least.
+        attained: with which a plan does not exceed it; where no plan keeps all budgets, the largest there is for this
+            one alone. None where that is not known.
+    """
+
+    budget: float
+    probability: float
+    attained: float | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the entry of `keep` in the JSON object."""
+        return {"budget": self.budget, "probability": self.probability, "attained": self.attained}
+
+
+def kept(keep: Keep, attained: float | None) -> Kept:
+    """Return a budget that is to be kept with what is attained."""
+    return Kept(keep.budget, keep.probability, attained)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -34,16 +59,20 @@ class PricedStep:
         step: the ground action.
         law: the distribution of its cost.
         expected_cost: the mean of the distribution, positive, in the domain's unit.
-        risk_cost: the certainty equivalent of the distribution for this agent, in the same unit.
+        risk_cost: what it adds to the value of the plan, in the same unit: for an agent that the paper knows the
+            certainty equivalent of the distribution. None where such prices do not add up.
     """
 
     step: Step
     law: CostLaw
     expected_cost: float
-    risk_cost: float
+    risk_cost: float | None
 
     def __repr__(self) -> str:
-        return f"<{self.step}: {brief(str(self.law))}; certainty equivalent {self.risk_cost:.6g}>"
+        price = f"mean {self.expected_cost:.6g}"
+        if self.risk_cost is not None:
+            price = f"certainty equivalent {self.risk_cost:.6g}"
+        return f"<{self.step}: {brief(str(self.law))}; {price}>"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entry of `plan` in the JSON object.
@@ -78,20 +107,27 @@ class PricedSteps(tuple[PricedStep, ...]):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class FoundPlan:
-    """A plan, and what it is worth to the agent it was made for.
+    """A plan, and what it is worth by the objective it was made for.
 
     Args:
         plan: the plan, with its decomposition.
         steps: its actions with their costs: as validation has them, or as the search has them where nothing validated
             the plan.
-        utility: the agent's utility function.
+        objective: what plans are compared by.
         unchecked: what ended its validation before it had come to its end; None where the plan is valid.
+        value: what the law of its total cost is worth by the objective, in its unit; the search minimises it.
+        risk_cost: the certain cost that has this value, positive, in the domain's unit: the certainty equivalent; None
+            where there is none, as for a probability.
+        keep: the budgets that it has to keep.
     """
 
     plan: Plan
     steps: PricedSteps
-    utility: Utility
+    objective: Objective
     unchecked: Status | None
+    value: float
+    risk_cost: float | None
+    keep: tuple[Kept, ...]
 
     @property
     def validated(self) -> bool:
@@ -109,26 +145,25 @@ class FoundPlan:
         return math.fsum(step.expected_cost for step in self.steps)
 
     @property
-    def risk_cost(self) -> float:
-        """Its certainty-equivalent cost, positive, in the domain's unit; the search minimises it."""
-        return math.fsum(step.risk_cost for step in self.steps)
-
-    @property
-    def expected_utility(self) -> str:
-        """Its expected utility as a decimal number of any size."""
-        return self.utility.expected_utility_text(self.risk_cost)
+    def expected_utility(self) -> str | None:
+        """Its expected utility as a decimal number of any size; None for an agent that the paper does not know."""
+        agent = agent_in(self.objective)
+        return None if agent is None else agent.expected_utility_text(self.value)
 
     @property
     def log10_expected_utility(self) -> float | None:
-        """The paper's column: `log10 EU` of a seeking agent, `-log10 |EU|` of an averse one, None of a neutral one."""
-        return self.utility.log10_expected_utility(self.risk_cost)
+        """The paper's column: `log10 EU` of a seeking agent, `-log10 |EU|` of an averse one, None of any other."""
+        agent = agent_in(self.objective)
+        return None if agent is None else agent.log10_expected_utility(self.value)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the plan with its prices as plain data."""
         return {"plan": [step.to_dict() for step in self.steps], **{name: getattr(self, name) for name in PRICES[1:]}}
 
 
-def validated_and_priced(problem: Problem, plan: Plan, utility: Utility, limits: Limits) -> FoundPlan:
+def validated_and_priced(
+    problem: Problem, plan: Plan, objective: Objective, keep: Sequence[Keep], limits: Limits
+) -> FoundPlan:
     """Validate a plan that a search has found, and price its steps in the states they are executed in.
 
     Where a limit or Ctrl-C ends that, the plan is returned as the search has it.
@@ -136,7 +171,8 @@ def validated_and_priced(problem: Problem, plan: Plan, utility: Utility, limits:
     Args:
         problem: the problem.
         plan: the plan, with the costs that the search has seen.
-        utility: the agent's.
+        objective: what plans are compared by.
+        keep: the budgets that plans have to keep.
         limits: they hold; a run that has used up its own may have a little grace (`SECONDS_TO_VALIDATE`).
 
     Raises:
@@ -146,14 +182,13 @@ def validated_and_priced(problem: Problem, plan: Plan, utility: Utility, limits:
     try:
         validation = validate(problem, plan, limits)
     except ENDINGS as ending:
-        return not_validated(plan, utility, status_of(ending))
+        return not_validated(plan, objective, keep, status_of(ending))
     if not validation.valid:
         raise InternalError(f"the search returned a wrong plan: {'; '.join(validation.reasons)}")
-    costs = validation.costs
-    return FoundPlan(plan.with_costs(costs), _priced(plan, costs, utility), utility, None)
+    return priced(plan.with_costs(validation.costs), objective, keep)
 
 
-def not_validated(plan: Plan, utility: Utility, stopped: Status) -> FoundPlan:
+def not_validated(plan: Plan, objective: Objective, keep: Sequence[Keep], stopped: Status) -> FoundPlan:
     """Return a plan with the prices of the search, since something ended the run before validation did.
 
     Raises:
@@ -161,19 +196,48 @@ def not_validated(plan: Plan, utility: Utility, stopped: Status) -> FoundPlan:
     """
     assert plan.costs is not None
     refuse_unknown(plan.costs)
-    return FoundPlan(plan, _priced(plan, plan.costs, utility), utility, stopped)
+    return priced(plan, objective, keep, stopped)
 
 
-def _priced(plan: Plan, costs: Sequence[CostLaw], utility: Utility) -> PricedSteps:
+def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecked: Status | None = None) -> FoundPlan:
+    """Return a plan that knows what its steps cost with what it is worth.
+
+    Raises:
+        InputError: it is worth nothing finite, or that cannot be computed.
+    """
+    assert plan.costs is not None
+    steps = _priced_steps(plan, plan.costs, objective)
+    adds_up = isinstance(objective, AdditiveObjective)
+    law = None if adds_up and not keep else plan.cost_distribution()
+    prices = (step.risk_cost or 0.0 for step in steps)
+    value = math.fsum(prices) if law is None or adds_up else objective.value(law)
+    budgets = tuple(kept(one, None if law is None else one.attained(law)) for one in keep)
+    risk_cost = value if law is None or adds_up else certainty_equivalent(objective, law)
+    return FoundPlan(plan, steps, objective, unchecked, value, risk_cost, budgets)
+
+
+def value_of(plan: Plan, objective: Objective) -> float:
+    """Return what the law of a plan's total cost is worth; a sum of prices where they add up, to save the convolution.
+
+    Raises:
+        InputError: it is worth nothing finite, or that cannot be computed.
+    """
+    if isinstance(objective, AdditiveObjective) and plan.costs is not None:
+        return plan_risk_cost(plan.costs, objective)
+    return objective.value(plan.cost_distribution())
+
+
+def _priced_steps(plan: Plan, costs: Sequence[CostLaw], objective: Objective) -> PricedSteps:
     """Return the steps with their prices; a law is priced once, and equal steps of one law are one object."""
     known: dict[tuple[object, int], PricedStep] = {}
-    prices: dict[int, tuple[float, float]] = {}
+    prices: dict[int, tuple[float, float | None]] = {}
+    price_of = objective.risk_cost if isinstance(objective, AdditiveObjective) else lambda _: None
     steps: list[PricedStep] = []
     for step, law in zip(plan.steps, costs, strict=True):
-        priced = known.get((step, id(law)))
-        if priced is None:
+        one = known.get((step, id(law)))
+        if one is None:
             if id(law) not in prices:
-                prices[id(law)] = law.mean, utility.risk_cost(law)
-            priced = known[step, id(law)] = PricedStep(step, law, *prices[id(law)])
-        steps.append(priced)
+                prices[id(law)] = law.mean, price_of(law)
+            one = known[step, id(law)] = PricedStep(step, law, *prices[id(law)])
+        steps.append(one)
     return PricedSteps(steps)

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
-from statehtn.core.grounding import Grounding, ground
-from statehtn.core.plan_based import search_networks
-from statehtn.core.pricing import PricedProblem, price
-from statehtn.core.progress import Progress, TopProgress
-from statehtn.core.search import improving_plans, last_of
+from statehtn.core.search import last_of
 from statehtn.core.search_run import SearchOutcome
-from statehtn.core.top_plans import find_top_plans
 from statehtn.counted import counted
 from statehtn.effort import Meter, Statistics
 from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, validated_and_priced
@@ -21,57 +16,13 @@ from statehtn.model.cost.unknown import MissingNumber
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.result import Result
-from statehtn.risk import Utility
+from statehtn.risk import Deadline
+from statehtn.session import ProgressCallback, Session, TopProgressCallback
 from statehtn.settings import Settings, TopSettings
 from statehtn.top_result import RankedPlan, TopPlans
 
-ProgressCallback = Callable[[Progress], None]
-TopProgressCallback = Callable[[TopProgress], None]
-
-
-class Session:
-    """A problem for any number of runs: read once, grounded once, and priced once for each agent.
-
-    A phase that a limit or an interruption ends is begun anew by the next run.
-
-    Args:
-        source: the problem, or a function that reads it within limits.
-    """
-
-    def __init__(self, source: Problem | Callable[[Limits], Problem]) -> None:
-        self.source = source
-        self.problem = source if isinstance(source, Problem) else None
-        self._grounding: Grounding | None = None
-        self._priced: dict[Utility, PricedProblem] = {}
-
-    def read(self, limits: Limits, meter: Meter) -> Problem:
-        """Return the problem."""
-        if not isinstance(self.source, Problem) and self.problem is None:
-            with meter.timed("parse"):
-                self.problem = self.source(limits)
-            log.info("reading: %.3f s, %s", meter.statistics.parse_seconds, self.problem)
-        assert self.problem is not None
-        return self.problem
-
-    def ground(self, limits: Limits, meter: Meter) -> Grounding:
-        """Return the ground problem, and note how large it is."""
-        problem = self.read(limits, meter)
-        with meter.timed("ground"):
-            if self._grounding is None:
-                self._grounding = ground(problem, limits)
-        found = self._grounding
-        sizes = {"facts": found.fact_count, "actions": found.action_count}
-        meter.note(**sizes, tasks=found.task_count, methods=found.method_count)
-        log.info("grounding: %.3f s, %s", meter.statistics.ground_seconds, meter.statistics.sizes)
-        return found
-
-    def price(self, objective: Utility, limits: Limits, meter: Meter) -> PricedProblem:
-        """Return the ground problem with the prices of its actions for an agent."""
-        grounding = self.ground(limits, meter)
-        with meter.timed("search"):
-            if objective not in self._priced:
-                self._priced[objective] = price(grounding, objective, limits)
-        return self._priced[objective]
+Search = Callable[[Meter], Iterator[SearchOutcome]]
+"""Reads, grounds, prices, and begins to search; the meter takes the time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +47,7 @@ class Reached:
 
     @property
     def bound(self) -> float | None:
-        """What the search has proven of the risk cost of every plan, or of every other one."""
+        """What the search has proven of the value of every plan, or of every other one."""
         return None if self.outcome is None else self.outcome.lower_bound
 
 
@@ -109,18 +60,14 @@ def solutions(
 ) -> Iterator[Result]:
     """Search for a plan; yield better and better ones, if `every_plan`, and last how the run ended."""
 
-    def search(problem: PricedProblem) -> Iterator[SearchOutcome]:
-        if settings.solver == "plan":
-            heuristic, branch = settings.heuristic, settings.branch
-            found = search_networks(problem, heuristic=heuristic, branch=branch, limits=limits, progress=progress)
-        else:
-            how = settings.heuristic, settings.search, settings.weight
-            found = improving_plans(problem, *how, limits, progress, settings.switches)
+    def search(meter: Meter) -> Iterator[SearchOutcome]:
+        found = session.search(settings, limits, meter, progress)
         return found if every_plan else _last_alone(found)
 
-    for reached in _run(session, settings.objective, search, limits):
+    for reached in _run(session, settings, search, limits):
         found = reached.found[0] if reached.found else None
-        how = reached.status, settings, reached.statistics, reached.stopped, reached.unread
+        largest, statistics = _largest(session, settings, limits, reached)
+        how = reached.status, settings, statistics, reached.stopped, reached.unread, largest
         result = Result(*how, found, reached.bound)
         _tell(result)
         yield result
@@ -143,32 +90,49 @@ def solve_top(
 ) -> TopPlans:
     """Search for the best plans; return how the run ended."""
 
-    def search(problem: PricedProblem) -> Iterator[SearchOutcome]:
-        k, distinct, heuristic = settings.k, settings.distinct, settings.heuristic
-        yield find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
+    def search(meter: Meter) -> Iterator[SearchOutcome]:
+        return session.search_top(settings, limits, meter, progress)
 
-    reached = last_of(_run(session, settings.objective, search, limits))
+    reached = last_of(_run(session, settings, search, limits))
     proven = 0 if reached.outcome is None else reached.outcome.proven
     plans = tuple(_ranked(reached.found, proven))
     is_all = reached.outcome is not None and reached.outcome.is_all and reached.stopped is None
     bound = reached.bound
     if plans and bound is not None:  # equal to the last plan's, rounding aside
-        bound = min(bound, plans[-1].risk_cost)
+        bound = min(bound, plans[-1].value)
     elif reached.unread:
         bound = None
-    how = reached.status, settings, reached.statistics, reached.stopped, reached.unread
+    largest, statistics = _largest(session, settings, limits, reached)
+    how = reached.status, settings, statistics, reached.stopped, reached.unread, largest
     result = TopPlans(*how, plans, is_all, bound)
     found, seconds = counted(len(plans), "plan"), reached.statistics.search_seconds or 0.0
     log.info("search: %s, %d proven, %.3f s", found, proven, seconds)
     return result
 
 
-def _run(
-    session: Session,
-    objective: Utility,
-    search: Callable[[PricedProblem], Iterator[SearchOutcome]],
-    limits: Limits,
-) -> Iterator[Reached]:
+def _largest(
+    session: Session, settings: Settings | TopSettings, limits: Limits, reached: Reached
+) -> tuple[tuple[float | None, ...], Statistics]:
+    """Return how well each budget can be kept by itself where no plan keeps all of them, and the effort with that.
+
+    None for a budget of which a limit left that unknown. Empty where there is a plan, or none whatever the budgets.
+    """
+    statistics = reached.statistics
+    if reached.status is not Status.UNSOLVABLE:
+        return (), statistics
+    largest: list[float | None] = []
+    for keep in settings.keep:
+        on_time = Settings.of(Deadline(keep.budget), heuristic=settings.heuristic, precision=settings.precision)
+        best = solve(session, on_time, limits)
+        statistics = statistics.and_search(best.statistics)
+        if best.status is Status.UNSOLVABLE:
+            return (), statistics
+        is_best = best.plan is not None and best.status is Status.OPTIMAL
+        largest.append(keep.attained(best.plan.cost_distribution()) if best.plan is not None and is_best else None)
+    return tuple(largest), statistics
+
+
+def _run(session: Session, settings: Settings | TopSettings, search: Search, limits: Limits) -> Iterator[Reached]:
     """Go through all phases; yield what is reached with every outcome of the search, and last how the run ended.
 
     A limit or an interruption ends it with what was reached by then, in whichever phase, or between two of them.
@@ -176,7 +140,7 @@ def _run(
     meter = Meter()
     latest = Reached(Status.INTERRUPTED, None, meter.statistics)
     try:
-        for latest in _phases(session, objective, search, limits, meter):
+        for latest in _phases(session, settings, search, limits, meter):
             yield latest
     except ENDINGS as ending:
         by = status_of(ending)
@@ -186,15 +150,10 @@ def _run(
 
 
 def _phases(
-    session: Session,
-    objective: Utility,
-    search: Callable[[PricedProblem], Iterator[SearchOutcome]],
-    limits: Limits,
-    meter: Meter,
+    session: Session, settings: Settings | TopSettings, search: Search, limits: Limits, meter: Meter
 ) -> Iterator[Reached]:
-    priced = session.price(objective, limits, meter)
+    outcomes = search(meter)
     problem = session.read(limits, meter)
-    outcomes = search(priced)
     traces: Sequence[object] = []
     found: tuple[FoundPlan, ...] = ()
     unpriced: MissingNumber | None = None
@@ -208,7 +167,7 @@ def _phases(
         if outcome.plans.results != traces:  # the last outcome mostly has the plan of the one before
             try:
                 with meter.timed("validate"):
-                    read, unread = _validated(problem, outcome, objective, limits)
+                    read, unread = _validated(problem, outcome, settings, limits)
             except MissingNumber as error:
                 unpriced = error  # a better plan may do without the number
                 continue
@@ -225,7 +184,7 @@ def _phases(
 
 
 def _validated(
-    problem: Problem, outcome: SearchOutcome, objective: Utility, limits: Limits
+    problem: Problem, outcome: SearchOutcome, settings: Settings | TopSettings, limits: Limits
 ) -> tuple[tuple[FoundPlan, ...], Status | None]:
     """Put plans together, validate and price them; return them, and what ended that before all were put together.
 
@@ -237,15 +196,16 @@ def _validated(
     """
     is_over = outcome.stopped is not None
     left = limits.with_grace(SECONDS_TO_VALIDATE, is_over=is_over)
+    wanted = settings.objective, settings.keep
     found: list[FoundPlan] = []
     stopped: Status | None = None
     try:
         for plan in outcome.plans.read(limits.with_grace(SECONDS_TO_READ, is_over=is_over)):
             if stopped is None:
-                found.append(validated_and_priced(problem, plan, objective, left))
+                found.append(validated_and_priced(problem, plan, *wanted, left))
                 stopped = found[-1].unchecked
             else:
-                found.append(not_validated(plan, objective, stopped))
+                found.append(not_validated(plan, *wanted, stopped))
     except ENDINGS as ending:
         return tuple(found), status_of(ending)
     return tuple(found), None
@@ -262,18 +222,19 @@ def _ranked(found: Sequence[FoundPlan], proven: int) -> Iterator[RankedPlan]:
     """
 
     def place(one: FoundPlan) -> tuple[float, int, list[str]]:
-        return float(f"{one.risk_cost:.14g}"), one.length, [str(step.step) for step in one.steps]
+        return float(f"{one.value:.14g}"), one.length, [str(step.step) for step in one.steps]
 
     in_order = sorted(found[:proven], key=place) + sorted(found[proven:], key=place)
     for index, one in enumerate(in_order):
-        yield RankedPlan(one.plan, one.steps, one.utility, one.unchecked, index + 1, index < proven)
+        known = {field.name: getattr(one, field.name) for field in fields(FoundPlan)}
+        yield RankedPlan(**known, rank=index + 1, is_proven=index < proven)
 
 
 def _tell(result: Result) -> None:
     """Log how far a search has come."""
     plan = "no plan"
     if result.found is not None:
-        plan = f"a plan of {counted(result.found.length, 'step')} for {result.found.risk_cost:.10g}"
+        plan = f"a plan of {counted(result.found.length, 'step')} for {result.found.value:.10g}"
     bound = "no bound" if result.lower_bound is None else f"bound {result.lower_bound:.10g}"
     seconds = result.statistics.search_seconds or 0.0
     log.info("search: %s, %s, %s after %.3f s", result.status, plan, bound, seconds)

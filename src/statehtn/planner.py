@@ -7,31 +7,34 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import wraps
 from typing import Concatenate, ParamSpec, Protocol, TypeVar
 
-from statehtn.attitudes import AttitudeComparison, compared_agents
+from statehtn.attitudes import AttitudeComparison, compared_objectives
 from statehtn.expected import function
 from statehtn.interrupt import OnInterrupt, check_interrupt, returned
 from statehtn.limits import Limits
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.pipeline import ProgressCallback, Session, TopProgressCallback, solutions, solve, solve_top
+from statehtn.pipeline import solutions, solve, solve_top
 from statehtn.result import Result
-from statehtn.risk import Attitude, AttitudeName, utility_for
+from statehtn.risk import Attitude, AttitudeName, ObjectiveLike
+from statehtn.session import ProgressCallback, Session, TopProgressCallback
 from statehtn.settings import (
     BranchName,
     DistinctName,
     HeuristicName,
+    KeepLike,
     SearchName,
     Settings,
     SolverName,
     TopHeuristicName,
     TopSettings,
+    objective_of,
 )
 from statehtn.top_result import TopPlans
 
 
 class Planner:
-    """Plans for one problem as often as is wanted: it is grounded once, and priced once for each agent.
+    """Plans for one problem as often as is wanted: it is grounded once, and priced once for each objective.
 
     The functions of the same names as its methods take a problem first, and are sessions of one call. The first call
     grounds, within its own limits; `ground_seconds` of the later ones are next to 0. A planner keeps what it has
@@ -59,26 +62,33 @@ class Planner:
     def plan(
         self,
         *,
-        attitude: Attitude | AttitudeName = Attitude.NEUTRAL,
+        objective: ObjectiveLike | None = None,
+        attitude: Attitude | AttitudeName | None = None,
         alpha: float | None = None,
+        keep: KeepLike | Iterable[KeepLike] = (),
         solver: SolverName = "state",
         heuristic: HeuristicName | None = None,
         search: SearchName = "astar",
         weight: float | None = None,
         branch: BranchName | None = None,
+        precision: float | None = None,
         time_limit: float | None = None,
         memory_limit: float | None = None,
         progress: ProgressCallback | None = None,
         interrupt: OnInterrupt = "return",
     ) -> Result:
-        """Find the plan of the problem with the maximum expected utility, and prove that it is.
+        """Find the best plan of the problem by an objective, and prove that it is.
 
-        No plan, a limit that was reached and a Ctrl-C are values of the result's `status` and `stopped`, not
-        exceptions.
+        For a neutral, averse or seeking agent that is the plan of maximum expected utility. No plan, a limit that was
+        reached and a Ctrl-C are values of the result's `status` and `stopped`, not exceptions.
 
         Args:
-            attitude: neutral, averse or seeking.
+            objective: what plans are compared by: an objective of `statehtn.objective`, its text form, such as
+                `cvar 0.95`, or a function that gives the utility of a total cost and does not rise. The expected cost
+                where neither it nor an attitude is given.
+            attitude: neutral, averse or seeking: with alpha a short form of an objective.
             alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
+            keep: budgets that have to be kept with a probability, such as `25 0.95`: plans that do not are none.
             solver: a name from `SOLVERS`.
             heuristic: a name from `HEURISTICS`, or `auto`: three searches in turn. `auto` is the default, but for
                 greedy search, whose default is `ff`, and the solver `plan`, which takes `tdg`, its default, or `blind`.
@@ -87,6 +97,8 @@ class Planner:
             weight: the weight of the heuristic in the weighted search, at least 1 (2 where it is not given).
             branch: which tasks the solver `plan` decomposes in a network: `fewest`, the one with the fewest methods, or
                 `all`, as the paper's Algorithm 3 does.
+            precision: a plan counts as optimal where it is within this part of max(1, its value) of the best one; for
+                objectives whose prices do not add up (1e-6 where it is not given).
             time_limit: seconds, for grounding and search together.
             memory_limit: resident memory of the whole process in MB (10^6 bytes).
             progress: is called some twenty times a second during the search.
@@ -96,10 +108,11 @@ class Planner:
         Raises:
             UsageError: an argument is out of its range.
             InputError: the cost of a reachable action is undefined, negative or no distribution, or has no finite price
-                for this agent (a heavy tail, for an averse one).
+                by this objective (a heavy tail, for an averse agent).
             UnsupportedError: the problem asks for something that the planner does not do.
         """
-        settings = Settings.of(utility_for(attitude, alpha), solver, heuristic, search, weight, branch)
+        wanted = objective_of(objective, attitude, alpha)
+        settings = Settings.of(wanted, solver, heuristic, search, weight, branch, keep=keep, precision=precision)
         function(progress, "progress")
         check_interrupt(interrupt)
         limits = Limits.starting_now(time_limit, memory_limit)
@@ -108,9 +121,12 @@ class Planner:
     def improving(
         self,
         *,
-        attitude: Attitude | AttitudeName = Attitude.NEUTRAL,
+        objective: ObjectiveLike | None = None,
+        attitude: Attitude | AttitudeName | None = None,
         alpha: float | None = None,
+        keep: KeepLike | Iterable[KeepLike] = (),
         heuristic: HeuristicName | None = None,
+        precision: float | None = None,
         time_limit: float | None = None,
         memory_limit: float | None = None,
         progress: ProgressCallback | None = None,
@@ -118,11 +134,13 @@ class Planner:
     ) -> Iterator[Result]:
         """Search the problem as `plan` does with `search="anytime"`, and yield each better plan as soon as it is found.
 
-        A robot takes the best plan so far when it has to go; the last result is what `plan` returns. `attitude`,
-        `alpha`, `heuristic`, `time_limit`, `memory_limit`, `progress` and `interrupt` are those of `plan`, and so are
-        the errors; wrong arguments are told at once. The time that the caller takes between two results counts, too.
+        A robot takes the best plan so far when it has to go; the last result is what `plan` returns. `objective`,
+        `attitude`, `alpha`, `keep`, `heuristic`, `precision`, `time_limit`, `memory_limit`, `progress` and `interrupt`
+        are those of `plan`, and so are the errors; wrong arguments are told at once. The time that the caller takes
+        between two results counts, too.
         """
-        settings = Settings.of(utility_for(attitude, alpha), heuristic=heuristic, search="anytime")
+        wanted = objective_of(objective, attitude, alpha)
+        settings = Settings.of(wanted, heuristic=heuristic, search="anytime", keep=keep, precision=precision)
         function(progress, "progress")
         check_interrupt(interrupt)
         limits = Limits.starting_now(time_limit, memory_limit)
@@ -132,16 +150,19 @@ class Planner:
         self,
         k: int,
         *,
-        attitude: Attitude | AttitudeName = Attitude.NEUTRAL,
+        objective: ObjectiveLike | None = None,
+        attitude: Attitude | AttitudeName | None = None,
         alpha: float | None = None,
+        keep: KeepLike | Iterable[KeepLike] = (),
         distinct: DistinctName = "sequence",
         heuristic: TopHeuristicName | None = None,
+        precision: float | None = None,
         time_limit: float | None = None,
         memory_limit: float | None = None,
         progress: TopProgressCallback | None = None,
         interrupt: OnInterrupt = "return",
     ) -> TopPlans:
-        """Find the k plans of the problem with the highest expected utility, and prove that they are.
+        """Find the k best plans of the problem by an objective, and prove that they are.
 
         Plans are different if their actions are; how they were decomposed makes no difference. Where there are fewer
         than k, all are returned. A limit that was reached and a Ctrl-C are values of the result's `status`, not
@@ -149,8 +170,7 @@ class Planner:
 
         Args:
             k: how many plans.
-            attitude: neutral, averse or seeking.
-            alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
+            objective: what plans are compared by, as for `plan`; so are `attitude`, `alpha`, `keep` and `precision`.
             distinct: `sequence`: plans differ if their sequences of actions do; `multiset`: plans with the same actions
                 in another order are one, the cheapest of them.
             heuristic: the name of an admissible heuristic in `HEURISTICS`; `potential` where none is given.
@@ -166,7 +186,8 @@ class Planner:
             InputError: the cost of a reachable action is undefined, negative or no distribution.
             UnsupportedError: the problem asks for something that the planner does not do.
         """
-        settings = TopSettings.of(k, utility_for(attitude, alpha), distinct, heuristic)
+        wanted = objective_of(objective, attitude, alpha)
+        settings = TopSettings.of(k, wanted, distinct, heuristic, keep, precision)
         function(progress, "progress")
         check_interrupt(interrupt)
         limits = Limits.starting_now(time_limit, memory_limit)
@@ -174,23 +195,28 @@ class Planner:
 
     def compare_attitudes(
         self,
-        alpha: float | Iterable[float] = 1.0,
+        alpha: float | Iterable[float] | None = None,
         *,
-        attitudes: Iterable[Attitude | AttitudeName] = tuple(Attitude),
+        attitudes: Iterable[Attitude | AttitudeName] | None = None,
+        objectives: Iterable[ObjectiveLike] | None = None,
+        keep: KeepLike | Iterable[KeepLike] = (),
         solver: SolverName = "state",
         heuristic: HeuristicName | None = None,
         search: SearchName = "astar",
+        precision: float | None = None,
         time_limit: float | None = None,
         memory_limit: float | None = None,
         progress: ProgressCallback | None = None,
         interrupt: OnInterrupt = "return",
     ) -> AttitudeComparison:
-        """Plan the problem for agents of several attitudes, and compare what they do.
+        """Plan the problem for agents of several attitudes, or by several objectives, and compare what they do.
 
         Args:
-            alpha: how much averse and seeking agents care about risk, per unit of cost; several for as many agents.
-            attitudes: some of averse, neutral and seeking.
-            solver: as for `plan`, for each agent; so are `heuristic`, `search` and `progress`.
+            alpha: how much averse and seeking agents care about risk, per unit of cost; several for as many agents; 1
+                where it is not given.
+            attitudes: some of averse, neutral and seeking; all where they are not given.
+            objectives: what plans are compared by, in the place of attitudes and alpha: as `objective` of `plan`.
+            keep: as for `plan`, for each agent; so are `solver`, `heuristic`, `search`, `precision` and `progress`.
             time_limit: seconds for each agent; the problem is grounded once, in the time of the first.
             memory_limit: resident memory of the whole process in MB (10^6 bytes).
             interrupt: what a Ctrl-C does: `return` what is known by then, or `raise` a `KeyboardInterrupt` with that as
@@ -203,8 +229,9 @@ class Planner:
             InputError, UnsupportedError: as `plan`.
         """
         check_interrupt(interrupt)
-        agents = compared_agents(alpha, attitudes)
-        wanted = [Settings.of(agent, solver, heuristic, search) for agent in agents]
+        compared = compared_objectives(alpha, attitudes, objectives)
+        how = solver, heuristic, search
+        wanted = [Settings.of(objective, *how, keep=keep, precision=precision) for objective in compared]
         function(progress, "progress")
         results: list[Result] = []
         for settings in wanted:

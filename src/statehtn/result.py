@@ -8,10 +8,10 @@ from typing import Any, Generic, TypeVar
 
 from statehtn.counted import counted
 from statehtn.effort import Statistics
-from statehtn.found_plan import PRICES, FoundPlan, PricedSteps
+from statehtn.found_plan import PRICES, FoundPlan, Kept, PricedSteps, kept
 from statehtn.model.plan import Plan
 from statehtn.model.status import Status
-from statehtn.risk import Utility, agent_name
+from statehtn.risk import Objective, Utility, agent_in, agent_name
 from statehtn.settings import Settings, TopSettings
 
 S = TypeVar("S", Settings, TopSettings)
@@ -19,7 +19,7 @@ S = TypeVar("S", Settings, TopSettings)
 
 @dataclass(frozen=True, slots=True, repr=False)
 class RunResult(Generic[S]):
-    """How a run of the planner ended, for whom it planned, and what it has cost.
+    """How a run of the planner ended, by what it compared plans, and what it has cost.
 
     Args:
         status: how it ended.
@@ -28,6 +28,8 @@ class RunResult(Generic[S]):
         stopped: what ended it before it was done, with or without a plan; None for nothing.
         unread: whether a plan was found, better than what is there, that has too many tasks to be put together before
             that; of a search for several plans: whether there are more of them.
+        largest: where no plan keeps all budgets: for each of them the largest probability with which a plan keeps it,
+            None where that is not known; else empty.
     """
 
     status: Status
@@ -35,25 +37,41 @@ class RunResult(Generic[S]):
     statistics: Statistics = field(default_factory=Statistics)
     stopped: Status | None = None
     unread: bool = False
+    largest: tuple[float | None, ...] = ()
 
     @property
-    def utility(self) -> Utility:
-        """The agent's utility function."""
+    def keep(self) -> tuple[Kept, ...]:
+        """The budgets that plans have to keep; where none keeps all of them, how well each can be kept by itself."""
+        return _asked(self)
+
+    @property
+    def objective(self) -> Objective:
+        """What plans are compared by."""
         return self.settings.objective
 
     @property
-    def attitude(self) -> str:
-        """The agent's attitude: neutral, averse or seeking."""
-        return str(self.utility.attitude)
+    def value_unit(self) -> str:
+        """The unit of the objective's values: `cost`, `probability` or `utility` (minus the expected utility)."""
+        return str(self.objective.unit)
+
+    @property
+    def utility(self) -> Utility | None:
+        """The utility function of a neutral, averse or seeking agent; None for any other objective."""
+        return agent_in(self.objective)
+
+    @property
+    def attitude(self) -> str | None:
+        """The agent's attitude: neutral, averse or seeking; None for any other objective."""
+        return None if self.utility is None else str(self.utility.attitude)
 
     @property
     def alpha(self) -> float | None:
-        """The curving coefficient of the exponential utility, per unit of cost; None for neutral."""
-        return self.utility.alpha
+        """The curving coefficient of the exponential utility, per unit of cost; None for any other objective."""
+        return None if self.utility is None else self.utility.alpha
 
     @property
-    def problem_class(self) -> str:
-        """The paper's RA-parameters of what was solved, such as `PS10110`."""
+    def problem_class(self) -> str | None:
+        """The paper's RA-parameters of what was solved, such as `PS10110`; None where the paper has no such class."""
         return self.settings.problem_class
 
     @property
@@ -74,10 +92,11 @@ class Result(RunResult[Settings]):
             nothing.
         unread: whether a plan was found, better than what is there, that has too many tasks to be put together before
             that.
+        largest: where no plan keeps all budgets, how well each can be kept by itself; else empty.
         found: the best plan found, and what it is worth; `plan`, `steps` and the prices below are its own. A limit or
             an interruption may come before it is validated: then the status is `solved`, and the prices are those of
             the search.
-        bound: a lower bound on the risk cost of every plan of the problem, in the domain's unit.
+        bound: a lower bound on the value of every plan of the problem, in the objective's unit.
     """
 
     found: FoundPlan | None = None
@@ -86,8 +105,9 @@ class Result(RunResult[Settings]):
     def __repr__(self) -> str:
         plan = "no plan"
         if self.found is not None:
-            plan = f"{counted(self.found.length, 'step')}, certainty equivalent {self.found.risk_cost:.10g}"
-        return f"<result for {agent_name(self.utility)}: {self.status}, {plan}>"
+            what = "value" if self.utility is None else "certainty equivalent"
+            plan = f"{counted(self.found.length, 'step')}, {what} {self.found.value:.10g}"
+        return f"<result for {agent_name(self.objective)}: {self.status}, {plan}>"
 
     def __bool__(self) -> bool:
         """Tell whether there is a plan."""
@@ -124,8 +144,16 @@ class Result(RunResult[Settings]):
         return None if self.found is None else self.found.expected_cost
 
     @property
+    def value(self) -> float | None:
+        """What the plan is worth by the objective, in its unit; the search minimises it."""
+        return None if self.found is None else self.found.value
+
+    @property
     def risk_cost(self) -> float | None:
-        """The plan's certainty-equivalent cost, positive, in the domain's unit; the search minimises it."""
+        """The certain cost that has the plan's value, positive, in the domain's unit: its certainty equivalent.
+
+        None where no cost has it, as for a probability.
+        """
         return None if self.found is None else self.found.risk_cost
 
     @property
@@ -140,10 +168,23 @@ class Result(RunResult[Settings]):
 
     @property
     def lower_bound(self) -> float | None:
-        """No plan of the problem has a risk cost below this; at most the risk cost of the plan that was found."""
+        """No plan of the problem has a value below this; it is at most the value of the plan that was found."""
         if self.bound is None or not math.isfinite(self.bound):
             return None
-        return self.bound if self.found is None else min(self.bound, self.found.risk_cost)
+        return self.bound if self.found is None else min(self.bound, self.found.value)
+
+    @property
+    def gap(self) -> float | None:
+        """By how much the value of the plan may exceed that of the best one, in the objective's unit."""
+        return None if self.found is None or self.lower_bound is None else self.found.value - self.lower_bound
+
+    @property
+    def keep(self) -> tuple[Kept, ...]:
+        """The budgets that plans have to keep, and how well this one does.
+
+        Where it is proven that no plan keeps all of them: how well each can be kept by itself.
+        """
+        return _asked(self) if self.found is None else self.found.keep
 
     def to_dict(self) -> dict[str, Any]:
         """Return the object that `statehtn plan --json` prints."""
@@ -153,10 +194,14 @@ class Result(RunResult[Settings]):
             "problem_class": self.problem_class,
             "solver": self.solver,
             "heuristic": self.heuristic,
+            "objective": str(self.objective),
             "attitude": self.attitude,
             "alpha": self.alpha,
             **found,
+            "value_unit": self.value_unit,
             "lower_bound": self.lower_bound,
+            "gap": self.gap,
+            "keep": [one.to_dict() for one in self.keep],
             "validated": None if self.found is None else self.validated,
             "stopped": None if self.stopped is None else self.stopped.value,
             "unread": self.unread,
@@ -172,3 +217,9 @@ class Result(RunResult[Settings]):
         from statehtn.display.result import result_html
 
         return result_html(self)
+
+
+def _asked(result: RunResult[Any]) -> tuple[Kept, ...]:
+    """Return the budgets to keep of a run, with how well each can be kept by itself where that was asked."""
+    asked = result.settings.keep
+    return tuple(map(kept, asked, result.largest or [None] * len(asked)))

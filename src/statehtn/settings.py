@@ -1,37 +1,46 @@
-"""What is asked of the planner: for whom, by which solver, heuristic and search; or for which of the best plans."""
+"""What is asked of the planner: by which objective, solver, heuristic and search; or for which of the best plans."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
-from types import MappingProxyType
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Literal
 
-from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS, PORTFOLIO
+from statehtn.compatible import (
+    HEURISTIC_CHOICES,
+    SOLVERS,
+    heuristics_for,
+    misleads,
+    mismatch,
+    prices_add_up,
+    refinements,
+)
+from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.searches import SEARCHES, TAKES
-from statehtn.core.switches import SearchSwitches
+from statehtn.core.switches import LabelSwitches, SearchSwitches
 from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
-from statehtn.expected import number, one_of, shown, whole_number
-from statehtn.risk import Neutral, Utility, problem_class
-
-SOLVERS: Mapping[str, str] = MappingProxyType(
-    {
-        "state": "A* progression search over states and task networks (paper Algorithm 4)",
-        "plan": "A* search over task networks alone (paper Algorithms 1 to 3)",
-    }
+from statehtn.expected import items, number, one_of, shown, whole_number
+from statehtn.risk import (
+    AdditiveObjective,
+    Attitude,
+    AttitudeName,
+    Keep,
+    Neutral,
+    Objective,
+    ObjectiveLike,
+    objective,
+    problem_class,
+    utility_for,
 )
-"""The solvers by name, with a line about each."""
-HEURISTIC_CHOICES = (PORTFOLIO, *HEURISTICS)
-"""What may be asked for as a heuristic."""
-SWITCHES = tuple(field.name for field in fields(SearchSwitches))
-"""The refinements that the solver `state` can do without."""
-NOTHING = "nothing"
-"""What is left out of the complete search."""
+
 DEFAULT_WEIGHT = 2.0
+DEFAULT_PRECISION = 1e-6
 MOST_PLANS = 1_000_000_000
+KeepLike = Keep | str
+"""A budget and the probability with which it is to be kept, or its text form, such as `25 0.95`."""
 
 
 # The same names for type checkers.
@@ -47,37 +56,42 @@ DistinctName = Literal["sequence", "multiset"]
 class Settings:
     """What to optimise, and how; make one by `Settings.of`, which checks it."""
 
-    objective: Utility
+    objective: Objective
     solver: str
     heuristic: str
     search: str
     weight: float
     branch: str
     without: tuple[str, ...] = ()
+    keep: tuple[Keep, ...] = ()
+    precision: float = DEFAULT_PRECISION
 
     @staticmethod
     def of(
-        objective: Utility = Neutral(),
+        objective: ObjectiveLike = Neutral(),
         solver: str = "state",
         heuristic: str | None = None,
         search: str = "astar",
         weight: float | None = None,
         branch: str | None = None,
         without: Sequence[str] = (),
+        keep: KeepLike | Iterable[KeepLike] = (),
+        precision: float | None = None,
     ) -> Settings:
         """Check the arguments, described at `statehtn.plan`; `without`: names from `SWITCHES` to leave out.
 
         Raises:
             UsageError: a name is unknown, a number out of range, or they do not go together.
         """
+        wanted, kept = objective_of(objective), keeps(keep)
         one_of(solver, SOLVERS, "solver")
         one_of(search, SEARCHES, "search")
         if heuristic is not None:
             one_of(heuristic, HEURISTIC_CHOICES, "heuristic")
         if branch is not None:
             one_of(branch, BRANCHES, "branch")
-        left_out = tuple(sorted(set(_refinements(without))))
-        if reason := mismatch(solver, heuristic, search, without):
+        left_out = tuple(sorted(set(refinements(without))))
+        if reason := mismatch(solver, heuristic, search, without, wanted, kept):
             raise UsageError(reason)
         if branch is not None and solver != "plan":
             raise UsageError(f"a branch belongs to the solver 'plan', not to '{solver}'")
@@ -88,32 +102,55 @@ class Settings:
         weight = number(weight, "the weight")
         if not (math.isfinite(weight) and weight >= 1):
             raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
-        heuristic = heuristic or TAKES[solver, search][0]
-        return Settings(objective, solver, heuristic, search, weight, branch or "fewest", left_out)
+        heuristic = heuristic or heuristics_for(solver, search, wanted, kept)[0]
+        how = solver, heuristic, search, weight, branch or "fewest", left_out
+        return Settings(wanted, *how, kept, precision_of(precision))
+
+    @property
+    def needs_labels(self) -> bool:
+        """Whether a node's cost so far is more than one number: no price for each action says it all."""
+        return not prices_add_up(self.objective, self.keep)
+
+    @property
+    def prices(self) -> AdditiveObjective:
+        """The objective where prices add up."""
+        return _additive(self.objective)
 
     @property
     def switches(self) -> SearchSwitches:
-        """The refinements of the search, without those to leave out."""
+        """The refinements of a search by prices, without those to leave out."""
         return SearchSwitches(**dict.fromkeys(self.without, False))
 
     @property
-    def problem_class(self) -> str:
-        """The paper's RA-parameters of what is solved, such as `PS10110`."""
-        return str(problem_class(self.solver, self.objective))
+    def label_switches(self) -> LabelSwitches:
+        """The refinements of a search by labels, without those to leave out."""
+        return LabelSwitches(**dict.fromkeys(self.without, False))
+
+    @property
+    def problem_class(self) -> str | None:
+        """The paper's RA-parameters of what is solved, such as `PS10110`; None where it has no such class."""
+        return _class_name(self.solver, self.objective)
 
 
 @dataclass(frozen=True, slots=True)
 class TopSettings:
     """Which of the best plans are wanted, and how to find them; make one by `TopSettings.of`, which checks it."""
 
-    objective: Utility
+    objective: Objective
     k: int
     distinct: str
     heuristic: str
+    keep: tuple[Keep, ...] = ()
+    precision: float = DEFAULT_PRECISION
 
     @staticmethod
     def of(
-        k: int, objective: Utility = Neutral(), distinct: str = "sequence", heuristic: str | None = None
+        k: int,
+        objective: ObjectiveLike = Neutral(),
+        distinct: str = "sequence",
+        heuristic: str | None = None,
+        keep: KeepLike | Iterable[KeepLike] = (),
+        precision: float | None = None,
     ) -> TopSettings:
         """Check the arguments, described at `statehtn.top_plans`.
 
@@ -126,51 +163,72 @@ class TopSettings:
         takes = TAKES["state", "top"]
         heuristic = takes[0] if heuristic is None else heuristic
         if isinstance(heuristic, str) and heuristic in HEURISTICS and heuristic not in takes:
-            raise UsageError(_misleads(heuristic, "the search for the best plans"))
+            raise UsageError(misleads(heuristic, "the search for the best plans"))
         one_of(heuristic, ADMISSIBLE, "heuristic for the best plans")
-        return TopSettings(objective, k, distinct, heuristic)
+        return TopSettings(objective_of(objective), k, distinct, heuristic, keeps(keep), precision_of(precision))
 
     @property
-    def problem_class(self) -> str:
-        """The paper's RA-parameters of what is solved, such as `PS10110`."""
-        return str(problem_class("state", self.objective))
+    def needs_labels(self) -> bool:
+        """Whether a node's cost so far is more than one number: no price for each action says it all."""
+        return not prices_add_up(self.objective, self.keep)
+
+    @property
+    def prices(self) -> AdditiveObjective:
+        """The objective where prices add up."""
+        return _additive(self.objective)
+
+    @property
+    def problem_class(self) -> str | None:
+        """The paper's RA-parameters of what is solved, such as `PS10110`; None where it has no such class."""
+        return _class_name("state", self.objective)
 
 
-def switches_in(text: str) -> tuple[str, ...]:
-    """Return the names in a text such as `endings+stubborn_sets`; none for `nothing`.
+def objective_of(
+    wanted: ObjectiveLike | None, attitude: Attitude | AttitudeName | None = None, alpha: float | None = None
+) -> Objective:
+    """Return an objective from what a user gives: itself, its text form, a callable, or an attitude with its alpha.
 
     Raises:
-        UsageError: there is no such refinement.
+        UsageError: there is none like that; or it is given in two ways.
     """
-    return () if text == NOTHING else _refinements(text.split("+"))
+    if wanted is None:
+        return utility_for(Attitude.NEUTRAL if attitude is None else attitude, alpha)
+    if attitude is not None or alpha is not None:
+        given = "an attitude" if attitude is not None else "alpha"
+        raise UsageError(
+            f"an objective and {given} are two ways to say one thing; write the objective 'averse 0.9' alone"
+        )
+    return objective(wanted)
 
 
-def _refinements(names: Iterable[str]) -> tuple[str, ...]:
-    return tuple(one_of(name, SWITCHES, "refinement") for name in names)
+def keeps(given: KeepLike | Iterable[KeepLike]) -> tuple[Keep, ...]:
+    """Return the budgets that a plan has to keep, each once.
+
+    Raises:
+        UsageError: one is none.
+    """
+    listed = [given] if isinstance(given, Keep | str) else items(given, "'keep'")
+    return tuple(dict.fromkeys(map(Keep.of, listed)))
 
 
-def mismatch(solver: str, heuristic: str | None, search: str, without: Sequence[str] = ()) -> str | None:
-    """Return why a solver does not take a heuristic, None for its own, a search and omissions together; None if so."""
-    takes = TAKES.get((solver, search))
-    if takes is None:
-        return f"the solver '{solver}' has no search but 'astar', found '{search}'"
-    if without and solver != "state":
-        return f"the solver '{solver}' has none of the refinements of 'state', found '{'+'.join(without)}'"
-    if heuristic is None or heuristic in takes:
-        return None
-    if solver == "plan":
-        usable = " and ".join(takes)
-        return f"the solver 'plan' has no state, which '{heuristic}' needs; its heuristics are {usable}"
-    if heuristic == PORTFOLIO:
-        searches = (name for name in SEARCHES if PORTFOLIO in TAKES[solver, name])
-        return f"'{PORTFOLIO}' goes with the searches {' and '.join(searches)}, not with '{search}'"
-    reason = _misleads(heuristic, f"the search '{search}'")
-    return f"{reason}, or '{heuristic}' with greedy search"
+def precision_of(given: float | None) -> float:
+    """Return how far from the optimum a plan may be that counts as optimal, as a part of max(1, value).
+
+    Raises:
+        UsageError: it is no such number.
+    """
+    value = DEFAULT_PRECISION if given is None else number(given, "the precision")
+    if not 0 < value < 1:
+        raise UsageError(f"the precision must be between 0 and 1, such as 1e-6, found {value:g}")
+    return value
 
 
-def _misleads(heuristic: str, search: str) -> str:
-    """Say why a search that proves something does not take a heuristic."""
-    return (
-        f"'{heuristic}' may estimate more than is true, so that {search} could not keep what it promises; take one of "
-        f"{', '.join(ADMISSIBLE)}"
-    )
+def _additive(wanted: Objective) -> AdditiveObjective:
+    assert isinstance(wanted, AdditiveObjective)
+    return wanted
+
+
+def _class_name(solver: str, wanted: Objective) -> str | None:
+    """Return the paper's RA-parameters as text; None where it has no class for the objective."""
+    found = problem_class(solver, wanted)
+    return None if found is None else str(found)

@@ -9,7 +9,7 @@ from typing import Any, overload
 from statehtn.counted import counted
 from statehtn.found_plan import FoundPlan
 from statehtn.result import RunResult
-from statehtn.risk import agent_name
+from statehtn.risk import agent_in, agent_name
 from statehtn.settings import TopSettings
 
 
@@ -20,8 +20,11 @@ class RankedPlan(FoundPlan):
     Args:
         plan: the plan, with its decomposition.
         steps: its actions with their costs.
-        utility: the agent's utility function.
+        objective: what plans are compared by.
         unchecked: what ended its validation before it had come to its end; None where the plan is valid.
+        value: what it is worth by the objective, in the objective's unit.
+        risk_cost: the certain cost that has this value; None where none has.
+        keep: the budgets that it has to keep.
         rank: 1 for the best; of equally good ones the shorter comes first.
         is_proven: it is proven that only the plans before it are better.
     """
@@ -31,12 +34,14 @@ class RankedPlan(FoundPlan):
 
     def __repr__(self) -> str:
         proven = "" if self.is_proven else ", not proven"
-        return f"<plan {self.rank}: {counted(self.length, 'step')}, certainty equivalent {self.risk_cost:.10g}{proven}>"
+        what = "value" if agent_in(self.objective) is None else "certainty equivalent"
+        return f"<plan {self.rank}: {counted(self.length, 'step')}, {what} {self.value:.10g}{proven}>"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entry of `plans` in the JSON object."""
         found = FoundPlan.to_dict(self)
-        return {"rank": self.rank, "proven": self.is_proven, "validated": self.validated, **found}
+        kept = [one.to_dict() for one in self.keep]
+        return {"rank": self.rank, "proven": self.is_proven, "validated": self.validated, **found, "keep": kept}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -50,9 +55,10 @@ class TopPlans(RunResult[TopSettings], Sequence[RankedPlan]):
         statistics: the effort.
         stopped: what ended the search before it was done, if anything did.
         unread: whether more plans were found that could not be put together before that.
+        largest: where no plan keeps all budgets, how well each can be kept by itself; else empty.
         plans: the plans.
         is_all: it is proven that there are no other plans.
-        lower_bound: no plan that is not among them has a lower risk cost, in the domain's unit; None where there is
+        lower_bound: no plan that is not among them has a lower value, in the objective's unit; None where there is
             none, or nothing is known.
     """
 
@@ -64,7 +70,7 @@ class TopPlans(RunResult[TopSettings], Sequence[RankedPlan]):
         return len(self.plans)
 
     def __repr__(self) -> str:
-        agent = agent_name(self.utility)
+        agent = agent_name(self.objective)
         return f"<{counted(len(self.plans), 'plan')} for {agent}: {self.status}, {self.proven} proven>"
 
     @overload
@@ -98,12 +104,15 @@ class TopPlans(RunResult[TopSettings], Sequence[RankedPlan]):
             "distinct": self.distinct,
             "problem_class": self.problem_class,
             "heuristic": self.heuristic,
+            "objective": str(self.objective),
+            "value_unit": self.value_unit,
             "attitude": self.attitude,
             "alpha": self.alpha,
             "plans": [ranked.to_dict() for ranked in self.plans],
             "proven": self.proven,
             "all": self.is_all,
             "lower_bound": self.lower_bound,
+            "keep": [one.to_dict() for one in self.keep],
             "unread": self.unread,
             "statistics": self.statistics.to_dict(),
         }

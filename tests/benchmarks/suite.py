@@ -18,10 +18,10 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from statehtn.compatible import NOTHING, PRICE_SWITCHES
 from statehtn.core.heuristics import ADMISSIBLE
 from statehtn.experiments.instances import find_instances
 from statehtn.experiments.run import Instance
-from statehtn.settings import NOTHING, SWITCHES
 from tests.benchmarks.records import COMPLETE, Row, read_runs
 from tests.benchmarks.search import Line, name_of, read_baseline
 
@@ -49,7 +49,7 @@ def ablation_suite(instances: Instances, rows: Iterable[Row]) -> Iterator[str]:
         is_search = row.configuration == COMPLETE and row.solved
         if is_search and LEAST_SECONDS <= (row.search_seconds or 0.0) <= MOST_SECONDS:
             limit = round(1 + TIMES_AS_LONG * row.seconds, 3)
-            yield from _runs(instances[row.name], limit, without=[NOTHING, *SWITCHES])
+            yield from _runs(instances[row.name], limit, without=[NOTHING, *PRICE_SWITCHES])
             yield from _runs(instances[row.name], limit, heuristics=list(ADMISSIBLE))
 
 

@@ -12,9 +12,9 @@ import pytest
 from statehtn import Plan, Problem, Result, Status, TopPlans, pipeline, validate
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.limits import Limits
-from statehtn.pipeline import Session
 from statehtn.reference.search_node import Solution
 from statehtn.risk import Utility
+from statehtn.session import Session
 from statehtn.settings import Settings, TopSettings
 from tests.brute_force import GaveUp
 

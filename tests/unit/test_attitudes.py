@@ -83,7 +83,7 @@ def test_equal_plans_stand_in_one_column() -> None:
 
 def test_it_is_json(comparison: AttitudeComparison) -> None:
     found = json.loads(json.dumps(comparison.to_dict(), allow_nan=False))
-    assert found["agents"][1] == {"attitude": "neutral", "alpha": None}
+    assert found["agents"][1] == {"attitude": "neutral", "alpha": None, "objective": "neutral"}
     assert [result["status"] for result in found["results"]] == ["optimal"] * 3
     assert found["risk_costs"][1][1] == pytest.approx(18.35)
     assert len(found["differences"]) == 6

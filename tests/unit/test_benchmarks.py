@@ -14,10 +14,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from statehtn.compatible import PRICE_SWITCHES
 from statehtn.core.heuristics import ADMISSIBLE
 from statehtn.experiments.run import Grid, Instance
 from statehtn.experiments.suites import runs_of
-from statehtn.settings import SWITCHES
 from tests.benchmarks import limits
 from tests.benchmarks.ablation import ablation_table, by_configuration, other_costs
 from tests.benchmarks.growth import MEASURES, exponent_table, families, fit, points
@@ -138,7 +138,7 @@ def test_the_suite_of_an_ablation_lacks_one_thing_at_a_time(tmp_path: Path) -> N
     (tmp_path / "ablation.toml").write_text("\n".join(ablation_suite(INSTANCES, [replace(RUN, parse_seconds=0.49)])))
     first, *others = [run.settings for run in runs_of(str(tmp_path / "ablation.toml"), Grid())]
     assert (first.heuristic, first.without) == ("auto", ())
-    assert {one.without for one in others if one.heuristic == "auto"} == {(name,) for name in SWITCHES}
+    assert {one.without for one in others if one.heuristic == "auto"} == {(name,) for name in PRICE_SWITCHES}
     assert {one.heuristic for one in others if not one.without} == set(ADMISSIBLE)
     assert all(len(one.without) + (one.heuristic != "auto") == 1 for one in others)
     assert {run.time_limit for run in runs_of(str(tmp_path / "ablation.toml"), Grid())} == {11.0}

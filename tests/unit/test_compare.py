@@ -27,9 +27,9 @@ from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM, UNSOLVABLE
 
 Capture = pytest.CaptureFixture[str]
 ISSUE_COLUMNS = (
-    "domain, problem, attitude, alpha, solver, heuristic, repeat, status, risk_cost, lower_bound, expected_cost, "
-    "log10_expected_utility, length, facts, actions, tasks, methods, expanded, generated, evaluated, parse_seconds, "
-    "ground_seconds, search_seconds, peak_memory_mb"
+    "domain, problem, objective, keep, solver, heuristic, repeat, attitude, alpha, status, risk_cost, value, "
+    "lower_bound, gap, expected_cost, log10_expected_utility, length, facts, actions, tasks, methods, expanded, "
+    "generated, evaluated, parse_seconds, ground_seconds, search_seconds, peak_memory_mb"
 )
 
 
@@ -97,7 +97,7 @@ def test_every_run_has_its_row(tree: Path, tmp_path: Path, capsys: Capture) -> N
     assert float(solved["risk_cost"]) == pytest.approx(3.4)
     assert (solved["length"], solved["log10_expected_utility"]) == ("1", "")
     assert all(float(solved[column]) > 0 for column in ("parse_seconds", "peak_memory_mb", "actions"))
-    assert set(list(rows["total-order/Errands", "p3"].values())[8:]) == {""}
+    assert set(list(rows["total-order/Errands", "p3"].values())[10:]) == {""}
     assert float(rows["partial-order/Endless", "pfile01"]["lower_bound"]) > 0
 
     records = {tuple(record["key"][:2]): record for record in json_lines(tmp_path / "results.jsonl")}
@@ -130,8 +130,9 @@ def test_a_grid_of_settings(tree: Path, tmp_path: Path, capsys: Capture) -> None
     rows = rows_of(output)
     settings = {tuple(row[column] for column in KEY_COLUMNS[2:]) for row in rows}
     assert len(settings) == len(rows) == 3 * 2 * 2 * 2
-    assert ("averse", "0.9", "state/greedy", "lmcut", "2") in settings
+    assert ("averse 0.9", "", "state/greedy", "lmcut", "2") in settings
     assert ("neutral", "", "state", "blind", "1") in settings
+    assert {row["alpha"] for row in rows if row["attitude"] == "averse"} == {"0.5", "0.9"}
     assert all(float(row["log10_expected_utility"]) < 0 for row in rows if row["attitude"] == "averse")
     assert capsys.readouterr() == ("", "")
     lines = output.read_text()

@@ -15,7 +15,8 @@ from statehtn import Status
 from statehtn.cli import files, main
 from statehtn.cli.streams import OutputError
 from statehtn.limits import Limits
-from statehtn.pipeline import Session, solutions
+from statehtn.pipeline import solutions
+from statehtn.session import Session
 from statehtn.settings import Settings
 from tests.processes import start
 from tests.test_minimal import DOMAIN, PROBLEM

@@ -26,7 +26,7 @@ pytest.importorskip("matplotlib", reason="the report draws")
 pytest.importorskip("jinja2", reason="the report needs it")
 
 Capture = pytest.CaptureFixture[str]
-AGENTS = [("averse", 0.9), ("averse", 0.1), ("neutral", None), ("seeking", 0.1), ("seeking", 0.9)]
+AGENTS = ["averse 0.9", "averse 0.1", "neutral", "seeking 0.1", "seeking 0.9"]
 PAIR = [("state", "auto"), ("plan", "tdg")]
 DASH, MINUS = tables.NOTHING, tables.MINUS
 
@@ -114,7 +114,7 @@ def test_a_picture_of_what_attitude_means(vehicle: str) -> None:
     costs = section(vehicle, "costs")
     (figure,) = costs.iter("figure")
     headings, *rows = table(figure, "p1")
-    assert headings == ["agent", "expected", "equivalent", "least", "5 %", "median", "95 %", "most"]
+    assert headings == ["agent", "expected", "value", "least", "5 %", "median", "95 %", "most"]
     assert [row[0] for row in rows] == ["averse 0.9", "averse 0.1", "neutral", "seeking 0.1", "seeking 0.9"]
     assert rows[0][1:] == ["19.4"] * 7  # certain
     assert rows[4][1:4] == ["22.8", "10.17", "5.5"]
@@ -178,9 +178,9 @@ def test_what_went_wrong_is_counted(tmp_path: Path) -> None:
         invented(problem="p1"),
         invented(problem="p1", repeat=2, status="time-limit", laws=None, lower_bound=2.0),  # not always solved
         invented(problem="p2", status="unsolvable", laws=None, lower_bound=None),
-        record("errands", "p3", ("neutral", None), status="killed"),
-        record("errands", "p4", ("neutral", None), status="error"),
-        record("errands", "p5", ("neutral", None), status="input-error"),
+        record("errands", "p3", "neutral", status="killed"),
+        record("errands", "p4", "neutral", status="error"),
+        record("errands", "p5", "neutral", status="input-error"),
         invented(problem="p6", status="exhausted", laws=None, lower_bound=None),
         invented(problem="p7", status="solved", lower_bound=1.0, seconds=0.75),
     ]
@@ -307,9 +307,9 @@ def edited(results: Path, old: str, new: str) -> None:
     ("file", "old", "new", "words"),
     [
         ("r.csv", "domain,problem", "problem,domain", "is no table of a comparison's results"),
-        ("r.csv", "errands,p1,neutral,", "errands,p1,", "line 2 of '{}/r.csv' has 23 columns, expected 24"),
-        ("r.csv", ",3.4,3.4,", ",cheap,3.4,", "line 2 of '{}/r.csv': 'risk_cost': expected a number, found 'cheap'"),
-        ("r.csv", ",3.4,3.4,", ",inf,3.4,", "'risk_cost': expected a number, found 'inf'"),
+        ("r.csv", "errands,p1,neutral,", "errands,p1,", "line 2 of '{}/r.csv' has 27 columns, expected 28"),
+        ("r.csv", ",3.4,3.4,", ",3.4,cheap,", "line 2 of '{}/r.csv': 'value': expected a number, found 'cheap'"),
+        ("r.csv", ",3.4,3.4,", ",3.4,inf,", "'value': expected a number, found 'inf'"),
         ("r.csv", "p1", "p9", "has no record of the run in line 2 of '{}/r.csv' (errands p9 neutral state auto 1)"),
         ("r.jsonl", '"key"', '"kye"', "line 1 of '{}/r.jsonl' is no record of a run"),
         ("r.jsonl", '{"key"', '["key"', "line 1 of '{}/r.jsonl' is no record of a run"),

@@ -40,7 +40,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> str:
     """A report with every section, long names, and tables wider than a phone."""
     folder = tmp_path_factory.mktemp("browser")
     p1 = problem("av", "p1")
-    agents = [("averse", 0.9), ("neutral", None), ("seeking", 0.9)]
+    agents = ["averse 0.9", "neutral", "seeking 0.9"]
     records = [planned(p1, "av", "p1", agent, solver=solver) for agent in agents for solver in ("state", "plan")]
     for index, seconds in enumerate((0.5, 10.25, 2.0)):
         records.append(invented(LONG_NAME, f"p{index + 8}", seconds=seconds, expanded=3000 * (2 - index)))

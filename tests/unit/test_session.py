@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import statehtn
-from statehtn import Planner, Status, pipeline
+from statehtn import Planner, Status, session
 from statehtn.core.grounding import Grounding, ground
 from statehtn.limits import LimitReached
 from statehtn.model import Problem
@@ -29,7 +29,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     made: list[str] = []
 
     def counted(name: str) -> Callable[..., Any]:
-        phase = getattr(pipeline, name)
+        phase = getattr(session, name)
 
         def call(*arguments: Any) -> Any:
             made.append(name)
@@ -38,7 +38,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         return call
 
     for name in ("ground", "price"):
-        monkeypatch.setattr(pipeline, name, counted(name))
+        monkeypatch.setattr(session, name, counted(name))
     return made
 
 
@@ -78,7 +78,7 @@ def test_a_phase_that_was_ended_is_begun_anew(
             raise endings.pop()
         return ground(*arguments)
 
-    monkeypatch.setattr(pipeline, "ground", ground_later)
+    monkeypatch.setattr(session, "ground", ground_later)
     planner = Planner(problem)
     first, second = planner.plan(), planner.plan()
     assert (first.status, first.stopped, first.plan) == (status, status, None)

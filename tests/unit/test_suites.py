@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 
 from statehtn.cli import main
+from statehtn.compatible import PRICE_SWITCHES, SOLVERS
 from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.experiments import suites
 from statehtn.experiments.run import Grid, Run
 from statehtn.experiments.suites import runs_of
 from statehtn.risk import utility_for
-from statehtn.settings import SOLVERS, SWITCHES
 from tests.regression.paper_tables import DOMAINS, alpha_of, rows
 from tests.test_minimal import DOMAIN, PROBLEM
 
@@ -60,7 +60,8 @@ def test_paper() -> None:
     for table in ("av_results", "satellite_results"):
         for row in rows(table):
             assert (row["instance"].upper(), utility_for(row["attitude"], alpha_of(row))) in ours
-    assert {run.settings.objective.alpha for run in runs if run.instance.domain == "satellite"} == {None, 0.1, 0.5, 0.9}
+    alphas = {run.to_dict()["alpha"] for run in runs if run.instance.domain == "satellite"}
+    assert alphas == {None, 0.1, 0.5, 0.9}
     assert all(Path(file).is_file() for run in runs for file in (run.instance.domain_file, run.instance.problem_file))
     assert {run.settings.solver for run in runs_of("paper", Grid(), DOMAINS)} == set(SOLVERS)
 
@@ -77,7 +78,9 @@ def test_satellite_large() -> None:
 
 
 def test_what_is_asked_for_counts_instead_of_the_suites_own() -> None:
-    asked = Grid(agents=(utility_for("averse", 2.0),), heuristics=("tdg",), searches=("astar", "greedy"), time_limit=5)
+    asked = Grid(
+        objectives=(utility_for("averse", 2.0),), heuristics=("tdg",), searches=("astar", "greedy"), time_limit=5
+    )
     runs = runs_of("satellite-large", asked, DOMAINS)
     assert settings([run for run in runs if run.settings.solver == "state"]) == {
         ("averse", 2.0, "state", "tdg", "astar"),
@@ -130,7 +133,7 @@ def test_refinements_are_left_out(tree: Path) -> None:
     runs = [run for run in runs_of(suite(tree, text), Grid()) if run.instance.domain == "trips" and run.repeat == 1]
     labels = ["state", "state without forget_facts", "state without endings+inherit_h"]
     assert [run.key[4] for run in runs] == labels * 2
-    assert [name for name in SWITCHES if not getattr(runs[2].settings.switches, name)] == ["inherit_h", "endings"]
+    assert [name for name in PRICE_SWITCHES if not getattr(runs[2].settings.switches, name)] == ["inherit_h", "endings"]
     assert [run.key[4] for run in runs_of("ipc", Grid(without=(("endings",),)), tree)] == ["state without endings"] * 3
     with pytest.raises(InputError, match=r"'without'.*stubborn_sets.*'sets'"):
         runs_of(suite(tree, FILE.replace("repeat = 2", 'without = "sets"')), Grid())
@@ -161,7 +164,7 @@ def test_a_file(tree: Path) -> None:
     assert {(run.repeat, run.time_limit, run.memory_limit) for run in second} == {(1, 5, 100)}
     assert [run.repeat for run in runs] == sorted(run.repeat for run in runs)
     assert settings(
-        runs_of(suite(tree, FILE), Grid(heuristics=("blind",), repeat=1, agents=(utility_for("neutral"),)))
+        runs_of(suite(tree, FILE), Grid(heuristics=("blind",), repeat=1, objectives=(utility_for("neutral"),)))
     ) == {("neutral", None, "state", "blind", "astar")}
 
 
@@ -192,7 +195,7 @@ RUNS = '[[runs]]\ndomain = "trips/domain.hddl"\nproblems = "trips/p1.hddl"\n'
         (f"{RUNS}heuristics = 'magic'", "'magic'"),
         (f"{RUNS}solvers = []", "'solvers': expected text"),
         (f"{RUNS}solvers = [1]", "found [1]"),
-        (f"{RUNS}attitudes = ['averse']", "needs an alpha ('attitudes', 'alphas')"),
+        (f"{RUNS}attitudes = ['averse']", "needs an alpha ('attitudes', 'alphas', 'objectives')"),
         (f"{RUNS}alphas = [1]", "neutral agent has no alpha"),
         (f"alphas = [1]\nattitudes = 'seeking'\n{RUNS}attitudes = 'averse'", "needs an alpha"),
         (f"{RUNS}attitudes = 'averse'\nalphas = [0.1, -1]", "'alphas': expected positive numbers, found -1"),

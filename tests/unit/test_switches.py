@@ -7,10 +7,10 @@ from dataclasses import fields
 import pytest
 
 import statehtn._relax as _relax
+from statehtn.compatible import SOLVERS
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.searches import SEARCHES, TAKES
 from statehtn.core.switches import ProgressionSwitches, SearchSwitches, TopSwitches, set_switches
-from statehtn.settings import SOLVERS
 
 NO_SWITCHES = {"in_sequence", "when_due", "explores"}
 """What greedy search is asked for; it does change what is found."""

@@ -19,12 +19,12 @@ from tests.unit.test_cli import files as files  # a fixture
 from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM, UNSOLVABLE
 
 KEYS = [
-    *("status", "stopped", "k", "distinct", "problem_class", "heuristic", "attitude", "alpha"),
-    *("plans", "proven", "all", "lower_bound", "unread", "statistics"),
+    *("status", "stopped", "k", "distinct", "problem_class", "heuristic", "objective", "value_unit"),
+    *("attitude", "alpha", "plans", "proven", "all", "lower_bound", "keep", "unread", "statistics"),
 ]
 PLAN_KEYS = [
     *("rank", "proven", "validated", "plan", "length", "expected_cost", "risk_cost"),
-    *("expected_utility", "log10_expected_utility"),
+    *("expected_utility", "log10_expected_utility", "value", "keep"),
 ]
 MOST = 50
 

@@ -9,21 +9,13 @@ from typing import get_args
 
 import pytest
 
+from statehtn.compatible import HEURISTIC_CHOICES, SOLVERS
 from statehtn.core.heuristics import ADMISSIBLE
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.searches import SEARCHES
 from statehtn.core.top_plans import DISTINCT
 from statehtn.risk import Attitude, AttitudeName
-from statehtn.settings import (
-    HEURISTIC_CHOICES,
-    SOLVERS,
-    BranchName,
-    DistinctName,
-    HeuristicName,
-    SearchName,
-    SolverName,
-    TopHeuristicName,
-)
+from statehtn.settings import BranchName, DistinctName, HeuristicName, SearchName, SolverName, TopHeuristicName
 
 ROOT = Path(__file__).parents[2]
 SCRIPT = """

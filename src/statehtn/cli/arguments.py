@@ -8,8 +8,9 @@ from typing import Any
 
 from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
 from statehtn.cli.parser import Parser
-from statehtn.cli.shared_options import add_agent, add_inputs, add_limits, count
+from statehtn.cli.shared_options import add_agent, add_inputs, add_keep, add_limits, add_objective, count
 from statehtn.cli.streams import emit
+from statehtn.compatible import HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES
 from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
 from statehtn.core.plan_based import BRANCHES
 from statehtn.core.searches import SEARCHES, TAKES
@@ -17,7 +18,7 @@ from statehtn.core.top_plans import DISTINCT
 from statehtn.errors import UsageError
 from statehtn.experiments.suites import DEFAULTS, SUITES
 from statehtn.risk import Attitude
-from statehtn.settings import DEFAULT_WEIGHT, HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES
+from statehtn.settings import DEFAULT_WEIGHT
 
 
 class _ShowVersion(argparse.Action):
@@ -71,14 +72,15 @@ def _with_stdin(options: argparse.Namespace) -> argparse.Namespace:
 def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "plan",
-        help="find the plan with the maximum expected utility",
-        description="Find the plan with the maximum expected utility for an agent's attitude to risk, and prove it.",
+        help="find the best plan, for an agent's attitude to risk or any other objective",
+        description="Find the plan with the maximum expected utility for an agent's attitude to risk, or the best one "
+        "by another objective, and prove it.",
         epilog=plan_epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     add_inputs(parser)
-    add_agent(parser)
+    add_objective(parser)
     search = parser.add_argument_group("the search")
     search.add_argument(
         "--solver",
@@ -123,15 +125,15 @@ def _add_top(commands: argparse._SubParsersAction[Parser]) -> None:
     parser = commands.add_parser(
         "top",
         help="find the K best plans",
-        description="Find the K plans with the highest expected utility for an agent's attitude to risk, and prove it. "
-        "Where there are fewer, all are printed.",
+        description="Find the K plans with the highest expected utility for an agent's attitude to risk, or the K best "
+        "by another objective, and prove it. Where there are fewer, all are printed.",
         epilog=TOP_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("k", type=count, metavar="K", help="how many plans")
     add_inputs(parser)
-    add_agent(parser)
+    add_objective(parser)
     search = parser.add_argument_group("the search")
     search.add_argument(
         "--distinct",
@@ -176,8 +178,8 @@ def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None
     parser = commands.add_parser(
         "compare-attitudes",
         help="show the plans of several agents side by side",
-        description="Plan for risk-averse, neutral and seeking agents, and show where their plans part, what each plan "
-        "would cost the other agents, and why each agent does not do what its neighbour does.",
+        description="Plan for risk-averse, neutral and seeking agents, or by any objectives, and show where their "
+        "plans part, what each plan would cost the other agents, and why each does not do what its neighbour does.",
         epilog="Exit codes: as of 'statehtn plan', of the first agent that has no plan; 0 if all have one.",
         allow_abbrev=False,
     )
@@ -186,10 +188,17 @@ def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None
         "--alpha",
         type=float,
         nargs="+",
-        default=[1.0],
         metavar="A",
         help="how much the averse and the seeking agents care, per unit of cost; several for more agents; default: 1",
     )
+    parser.add_argument(
+        "--objective",
+        action="extend",
+        nargs="+",
+        metavar="TEXT",
+        help="what to compare in the place of attitudes, such as neutral 'cvar 0.95'; repeatable",
+    )
+    add_keep(parser)
     parser.add_argument("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of the search in 'statehtn plan'")
     parser.add_argument("--search", choices=("astar", "anytime", "greedy"), default="astar", help="default: astar")
     add_limits(parser, "seconds for reading, and then for each agent")
@@ -216,6 +225,8 @@ def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:
     several("--problem", metavar="GLOB", help="only problems of this name")
     several("--attitude", choices=[str(attitude) for attitude in Attitude], help="default: the suite's own")
     several("--alpha", type=float, metavar="A", help="for the averse and the seeking")
+    several("--objective", metavar="TEXT", help="in the place of attitudes, or beside them, such as 'cvar 0.95'")
+    add_keep(parser)
     several("--solver", choices=list(SOLVERS), help="default: the suite's own, else state")
     several("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of solver and search in 'statehtn plan'")
     several("--search", choices=list(SEARCHES), help="default: astar")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 
-from statehtn.attitudes import AttitudeComparison, compared_agents
+from statehtn.attitudes import AttitudeComparison, compared_objectives
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.progress import ProgressLine
@@ -14,7 +14,6 @@ from statehtn.limits import LimitReached, Limits
 from statehtn.model.status import Status
 from statehtn.planner import compare_attitudes
 from statehtn.result import Result
-from statehtn.risk import Attitude
 from statehtn.settings import Settings
 
 
@@ -36,6 +35,9 @@ def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
             comparison = compare_attitudes(
                 problem,
                 options.alpha,
+                objectives=options.objective,
+                keep=options.keep,
+                precision=options.precision,
                 heuristic=options.heuristic,
                 search=options.search,
                 time_limit=options.time_limit,
@@ -49,6 +51,7 @@ def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
 
 def _stopped(options: argparse.Namespace, status: Status) -> AttitudeComparison:
     """Return the comparison of agents none of which has been asked."""
-    agents = compared_agents(options.alpha, Attitude)
-    asked = (Settings.of(agent, heuristic=options.heuristic, search=options.search) for agent in agents)
+    compared = compared_objectives(options.alpha, None, options.objective)
+    how = {name: getattr(options, name) for name in ("heuristic", "search", "keep", "precision")}
+    asked = (Settings.of(objective, **how) for objective in compared)
     return AttitudeComparison(tuple(Result(status, settings, stopped=status) for settings in asked))

@@ -18,16 +18,17 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import STDOUT
 from statehtn.cli.streams import OutputError, emit, say
+from statehtn.compatible import switches_in
 from statehtn.display.summaries import readable_summaries
 from statehtn.errors import InputError, UsageError, one_line
 from statehtn.experiments.cluster import execute_on_cluster
 from statehtn.experiments.record_files import RecordFiles, csv_line
 from statehtn.experiments.records import COLUMNS, Record, Row
-from statehtn.experiments.run import Grid, Run, agents_of
+from statehtn.experiments.run import Grid, Run, objectives_of
 from statehtn.experiments.runner import execute_all
 from statehtn.experiments.suites import runs_of
 from statehtn.experiments.summary import summarise, summary_of
-from statehtn.settings import switches_in
+from statehtn.settings import keeps
 
 RETRIED = {"errors": "error", "killed": "killed"}
 """What `--retry` takes, and the status of the runs that it means."""
@@ -64,11 +65,13 @@ def run_compare(options: argparse.Namespace) -> ExitCode:
 def _runs(options: argparse.Namespace) -> list[Run]:
     """Return the runs that the options ask for."""
     asked = Grid(
-        agents=agents_of(_unique(options.attitude), _unique(options.alpha)),
+        objectives=objectives_of(_unique(options.attitude), _unique(options.alpha), _unique(options.objective)),
         solvers=_unique(options.solver),
         heuristics=_unique(options.heuristic),
         searches=_unique(options.search),
         without=_unique(map(switches_in, options.without or ())),
+        keep=keeps(options.keep),
+        precision=options.precision,
         repeat=options.repeat,
         time_limit=options.time_limit,
         memory_limit=options.memory_limit,

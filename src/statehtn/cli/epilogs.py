@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 
 from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
+from statehtn.risk import OBJECTIVES
 
 HELP_WIDTH = 100
 _AUTO = (
@@ -12,7 +13,10 @@ _AUTO = (
     "and lmcut one after the other"
 )
 
-PLAN_EPILOG = """heuristics:
+PLAN_EPILOG = """objectives:
+{}
+
+heuristics:
 {}
 
 exit codes:
@@ -45,9 +49,10 @@ exit codes: 0 every run is recorded, 2 usage, 30 wrong suite, folder or file, 69
 
 
 def plan_epilog() -> str:
-    """Return the end of the help of `statehtn plan`, which describes the heuristics."""
+    """Return the end of the help of `statehtn plan`, which describes the objectives and the heuristics."""
     return PLAN_EPILOG.format(
-        described({PORTFOLIO: _AUTO, **{name: info.description for name, info in HEURISTICS.items()}})
+        described({form.form: form.meaning for form in OBJECTIVES.values()}),
+        described({PORTFOLIO: _AUTO, **{name: info.description for name, info in HEURISTICS.items()}}),
     )
 
 

@@ -10,17 +10,19 @@ from functools import partial
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
-from statehtn.cli.shared_options import agent_of
+from statehtn.cli.shared_options import objective_in
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
+from statehtn.compatible import switches_in
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
-from statehtn.pipeline import Session, solutions
+from statehtn.pipeline import solutions
 from statehtn.result import Result
-from statehtn.settings import Settings, switches_in
+from statehtn.session import Session
+from statehtn.settings import Settings
 
 
 def run_plan(options: argparse.Namespace) -> ExitCode:
@@ -31,13 +33,15 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         OutputError: the plan was found and printed, but could not be written to a file.
     """
     settings = Settings.of(
-        agent_of(options),
+        objective_in(options),
         solver=options.solver,
         heuristic=options.heuristic,
         search=options.search,
         weight=options.weight,
         branch=options.branch,
         without=switches_in(options.without),
+        keep=options.keep,
+        precision=options.precision,
     )
     inputs = (options.domain, options.problem, options.costs)
     output = None if options.output is None else OutputFile(options.output, inputs)

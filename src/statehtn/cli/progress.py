@@ -8,7 +8,7 @@ from types import TracebackType
 
 from statehtn.cli.streams import show_progress
 from statehtn.core.progress import Progress, TopProgress
-from statehtn.pipeline import ProgressCallback
+from statehtn.session import ProgressCallback
 
 SECONDS_BETWEEN_LINES = 0.1
 

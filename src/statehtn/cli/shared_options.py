@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from statehtn.risk import Attitude, Utility, utility_for
+from statehtn.errors import UsageError
+from statehtn.risk import Attitude, Objective, Utility, utility_for
+from statehtn.settings import DEFAULT_PRECISION, objective_of
 
 
 def add_inputs(parser: argparse.ArgumentParser) -> None:
@@ -18,10 +20,42 @@ def add_inputs(parser: argparse.ArgumentParser) -> None:
 def add_agent(parser: argparse.ArgumentParser) -> None:
     """Add who plans; `agent_of` reads it back."""
     agent = parser.add_argument_group("the agent")
+    _add_attitude(agent)
+
+
+def add_objective(parser: argparse.ArgumentParser) -> None:
+    """Add what plans are compared by, and what they have to keep; `objective_in` reads the former back."""
+    agent = parser.add_argument_group("the agent")
     agent.add_argument(
-        "--attitude", choices=[str(attitude) for attitude in Attitude], default="neutral", help="default: neutral"
+        "--objective",
+        metavar="TEXT",
+        help="what plans are compared by, such as 'cvar 0.95' or 'deadline 25': see the end of the help of "
+        "'statehtn plan'; default: the expected cost",
     )
+    _add_attitude(agent)
+    add_keep(agent)
+
+
+def _add_attitude(agent: argparse._ActionsContainer) -> None:
+    agent.add_argument("--attitude", choices=[str(attitude) for attitude in Attitude], help="default: neutral")
     agent.add_argument("--alpha", type=float, metavar="A", help="how much such an agent cares, per unit of cost")
+
+
+def add_keep(agent: argparse._ActionsContainer) -> None:
+    """Add the budgets that plans have to keep, and how far from the best they may be."""
+    agent.add_argument(
+        "--keep",
+        action="append",
+        default=[],
+        metavar="'BUDGET PROBABILITY'",
+        help="only plans that cost no more than the budget with this probability at least, as in '25 0.95'; repeatable",
+    )
+    agent.add_argument(
+        "--precision",
+        type=float,
+        metavar="P",
+        help=f"how close to the best counts as optimal, where prices do not add up: default {DEFAULT_PRECISION:g}",
+    )
 
 
 def agent_of(options: argparse.Namespace) -> Utility:
@@ -30,7 +64,20 @@ def agent_of(options: argparse.Namespace) -> Utility:
     Raises:
         UsageError: there is none like that.
     """
-    return utility_for(options.attitude, options.alpha)
+    return utility_for(options.attitude or Attitude.NEUTRAL, options.alpha)
+
+
+def objective_in(options: argparse.Namespace) -> Objective:
+    """Return the objective that the options name, by its text or by an attitude.
+
+    Raises:
+        UsageError: there is none like that, or it is named in both ways.
+    """
+    if options.objective is not None:
+        for option, value in (("--attitude", options.attitude), ("--alpha", options.alpha)):
+            if value is not None:
+                raise UsageError(f"--objective and {option} are two ways to say one thing; leave out {option}")
+    return objective_of(options.objective, options.attitude, options.alpha)
 
 
 def add_limits(group: argparse._ActionsContainer, time: str = "seconds, reading included") -> None:

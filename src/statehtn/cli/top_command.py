@@ -11,7 +11,7 @@ from pathlib import Path
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
-from statehtn.cli.shared_options import agent_of
+from statehtn.cli.shared_options import objective_in
 from statehtn.cli.streams import OutputError, emit, emit_lines
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
@@ -19,7 +19,8 @@ from statehtn.hddl.plan_format import write_plan
 from statehtn.limits import Limits
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.pipeline import Session, solve_top
+from statehtn.pipeline import solve_top
+from statehtn.session import Session
 from statehtn.settings import TopSettings
 from statehtn.top_result import TopPlans
 
@@ -31,7 +32,14 @@ def run_top(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         OutputError: plans were found and printed, but could not be written to files.
     """
-    settings = TopSettings.of(options.k, agent_of(options), distinct=options.distinct, heuristic=options.heuristic)
+    settings = TopSettings.of(
+        options.k,
+        objective_in(options),
+        distinct=options.distinct,
+        heuristic=options.heuristic,
+        keep=options.keep,
+        precision=options.precision,
+    )
     if options.output is not None:
         _check_folder(options.output)
     limits = Limits.starting_now(options.time_limit, options.memory_limit)

@@ -15,7 +15,7 @@ from statehtn.core.scale import Scale
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import Limits, watched
 from statehtn.model import CostLaw
-from statehtn.risk import Exponential, Neutral, Utility
+from statehtn.risk import AdditiveObjective, Exponential, Neutral
 
 ROUNDING = 2.0**-40
 """By how much of itself the risk cost of an uncertain cost is off at most, computed in floating point.
@@ -103,7 +103,7 @@ class PricedProblem:
         return PricedTrace(trace, actions, parts, cost)
 
 
-def price(grounding: Grounding, objective: Utility, limits: Limits = Limits()) -> PricedProblem:
+def price(grounding: Grounding, objective: AdditiveObjective, limits: Limits = Limits()) -> PricedProblem:
     """Price actions by their risk cost (line 6 of the paper's Algorithm 5, in the additive form of its equation 10).
 
     Parts of a cost are independent, so that their risk costs add up, too: each has a price of its own.
@@ -137,7 +137,7 @@ def price(grounding: Grounding, objective: Utility, limits: Limits = Limits()) -
     return PricedProblem(grounding, actions, parts)
 
 
-def risk_cost(law: CostLaw, objective: Utility) -> RiskCost:
+def risk_cost(law: CostLaw, objective: AdditiveObjective) -> RiskCost:
     """Return the price of a cost to an agent.
 
     Raises:

@@ -14,7 +14,7 @@ class SearchProgress:
     Args:
         seconds: since the search began.
         effort: the nodes that it has dealt with.
-        lower_bound: what it has proven by now, in the domain's own unit; None for nothing.
+        lower_bound: what it has proven by now, in the objective's unit; None for nothing.
     """
 
     seconds: float
@@ -44,8 +44,8 @@ class Progress(SearchProgress):
     Args:
         seconds: since the search began.
         effort: the nodes that it has dealt with.
-        lower_bound: no plan has a lower risk cost, in the domain's own unit; None where none is known.
-        best: the risk cost of the best plan so far; None where there is none.
+        lower_bound: no plan has a lower value, in the objective's unit; None where none is known.
+        best: the value of the best plan so far; None where there is none.
     """
 
     best: float | None
@@ -58,7 +58,7 @@ class TopProgress(SearchProgress):
     Args:
         seconds: since the search began.
         effort: the nodes that it has dealt with.
-        lower_bound: all plans of a lower risk cost, in the domain's own unit, are among those found; None for unknown.
+        lower_bound: all plans of a lower value, in the objective's unit, are among those found; None for unknown.
         found: how many plans it knows.
         proven: the first so many of them are the best there are.
     """

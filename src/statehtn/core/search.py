@@ -15,7 +15,7 @@ from statehtn.core.searches import SEARCHES, core_options
 from statehtn.core.staged_run import StagedRun
 from statehtn.core.switches import SearchSwitches
 from statehtn.limits import Limits
-from statehtn.risk import Utility
+from statehtn.risk import AdditiveObjective
 
 Item = TypeVar("Item")
 
@@ -28,7 +28,7 @@ def last_of(items: Iterable[Item]) -> Item:
 
 def find_plans(
     grounding: Grounding,
-    utility: Utility,
+    objective: AdditiveObjective,
     *,
     heuristic: str = PORTFOLIO,
     search: str = "astar",
@@ -41,7 +41,7 @@ def find_plans(
 
     Args:
         grounding: the ground problem and its cost laws.
-        utility: the agent's; it prices the actions.
+        objective: what plans are compared by; it prices the actions.
         heuristic: a name in `HEURISTICS`, or `PORTFOLIO` for searches with several of them in turn.
         search: a name in `SEARCHES`; with an admissible heuristic `astar` and `anytime` promise the optimum, `weighted`
             a plan of at most `weight` times its risk cost.
@@ -50,7 +50,7 @@ def find_plans(
         progress: called about every 50 ms on the calling thread.
         switches: refinements to leave out.
     """
-    problem = price(grounding, utility, limits)
+    problem = price(grounding, objective, limits)
     return last_of(improving_plans(problem, heuristic, search, weight, limits, progress, switches))
 
 

@@ -53,8 +53,8 @@ class SearchOutcome:
         status: how it ended; `SOLVED` where it goes on from a plan.
         stopped: what ended it before it was done, with or without a plan; None for nothing.
         plans: those that were found, the best first; read when they are asked for.
-        lower_bound: a lower bound of the risk cost of every plan (of a search for several: of every other one); None
-            if there is none.
+        lower_bound: a lower bound of the value of every plan (of a search for several: of every other one); None if
+            there is none.
         effort: of all its stages together.
         proven: of a search for several plans: the first so many of them are the best there are.
         is_all: of such a search: there are no other plans.

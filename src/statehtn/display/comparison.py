@@ -13,11 +13,17 @@ from statehtn.model.status import Status
 
 TIE = 1e-9
 """Plans whose prices for an agent differ by no more than this part of them are equally good for it."""
+LEAST = 1e-12
+"""Nor do probabilities that differ by no more."""
 EDGE = 3
 """So many actions at each end of a long stretch are shown; those between them are counted."""
 NOTES = (
     "for ...: the certainty equivalent, a certain cost that such an agent finds exactly as bad",
     "* proven: no plan has a lower one for this agent",
+)
+NOTES_ON_VALUES = (
+    "by ...: the value of the plan; to neutral, averse and seeking agents a certain cost that they find as bad",
+    "* proven: no plan has a lower one by this objective",
 )
 
 
@@ -41,7 +47,14 @@ def comparison_html(comparison: AttitudeComparison) -> str:
 
 
 def _legend(comparison: AttitudeComparison) -> tuple[str, ...]:
-    return NOTES if any(comparison.results) else ()
+    if not any(comparison.results):
+        return ()
+    return NOTES if _are_agents(comparison) else NOTES_ON_VALUES
+
+
+def _are_agents(comparison: AttitudeComparison) -> bool:
+    """Tell whether all are neutral, averse or seeking agents, whose values are certainty equivalents."""
+    return all(result.utility is not None for result in comparison.results)
 
 
 def _side_by_side(comparison: AttitudeComparison) -> Table | None:
@@ -77,8 +90,9 @@ def _shortened(rows: Sequence[tuple[bool, Sequence[str]]], width: int) -> Iterat
 
 
 def _costs(comparison: AttitudeComparison) -> Table:
-    heads = ("least", "expected", "most", *(f"for {agent}" for agent in comparison.agents))
-    prices, results = comparison.risk_costs, comparison.results
+    word = "for" if _are_agents(comparison) else "by"
+    heads = ("least", "expected", "most", *(f"{word} {agent}" for agent in comparison.agents))
+    prices, results = comparison.values, comparison.results
     if not any(results):
         endings = [(agent, str(result.status)) for agent, result in zip(comparison.agents, results, strict=True)]
         return Table((Column("agent"), Column("plan")), endings)
@@ -105,7 +119,7 @@ def _reasons(comparison: AttitudeComparison) -> Iterator[str]:
 
 
 def _reason_lines(comparison: AttitudeComparison, agent: int, other: int, parts: Sequence[Difference]) -> Iterator[str]:
-    names, prices = comparison.agents, comparison.risk_costs
+    names, prices = comparison.agents, comparison.values
     cost, other_cost = prices[agent][agent], prices[other][agent]
     assert cost is not None
     assert other_cost is not None
@@ -115,13 +129,13 @@ def _reason_lines(comparison: AttitudeComparison, agent: int, other: int, parts:
         return
     price, other_price = _apart(cost, other_cost)
     yield f"{names[agent]} instead of {names[other]}: {price}, not {other_price}, by its own measure"
-    for part in parts:
+    for part in parts:  # without prices where those of parts of a plan do not add up
         yield f"  {_number(part.own_cost):>8}  {_actions(part.own)}"
         yield f"  {_number(part.other_cost):>8}  instead of {_actions(part.other)}"
 
 
 def _are_equal(price: float | None, other: float | None) -> bool:
-    return price is not None and other is not None and math.isclose(price, other, rel_tol=TIE)
+    return price is not None and other is not None and math.isclose(price, other, rel_tol=TIE, abs_tol=LEAST)
 
 
 def _actions(steps: Sequence[PricedStep]) -> str:

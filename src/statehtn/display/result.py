@@ -10,29 +10,32 @@ from typing import TextIO
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
 from statehtn.display.words import (
-    ENDINGS,
     FAILURE,
+    NO_CLASS,
     STOPS,
     STYLES,
     UNREAD,
     Labelled,
     agent,
     effort_rows,
+    ending,
     head,
+    keep_rows,
     log10_label,
     number,
+    worth,
 )
 from statehtn.found_plan import PricedStep
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.status import Status
 from statehtn.result import Result
+from statehtn.risk import AdditiveObjective, ValueUnit
 
 COLUMNS = (
     Column("", is_number=True),
     Column("action"),
     Column("cost"),
     Column("expected", is_number=True),
-    Column("certainty equivalent", is_number=True),
 )
 NOT_VALIDATED = "no: the run ended before the plan was checked; 'statehtn validate' checks a plan file (--output)"
 
@@ -59,7 +62,8 @@ def result_html(result: Result) -> str:
 
 def steps_html(steps: Sequence[PricedStep]) -> str:
     """Return a table of steps with their costs as HTML for a notebook."""
-    return Table(COLUMNS, _rows(steps)).to_html()
+    has_prices = any(priced.risk_cost is not None for priced in steps) or not steps
+    return Table(_columns("certainty equivalent" if has_prices else None), _rows(steps, has_prices)).to_html()
 
 
 def readable_result(result: Result, stream: TextIO) -> str:
@@ -68,21 +72,27 @@ def readable_result(result: Result, stream: TextIO) -> str:
     if result.plan is None:
         return rendered([summary], stream=stream)
     laws = _range([priced.law for priced in result.steps])
-    return rendered([_table(result, laws, f"Plan for {agent(result)}"), summary], stream=stream)
+    return rendered([_table(result, laws, f"Plan {agent(result)}"), summary], stream=stream)
 
 
 def _table(result: Result, laws: str = "", title: str = "") -> Table:
-    totals = ("", "in all", laws, number(result.expected_cost), number(result.risk_cost))
-    return Table(COLUMNS, _rows(result.steps), totals, title)
+    has_prices = isinstance(result.objective, AdditiveObjective)
+    totals = ("", "in all", laws, number(result.expected_cost), *([number(result.value)] if has_prices else []))
+    return Table(_columns(worth(result) if has_prices else None), _rows(result.steps, has_prices), totals, title)
 
 
-def _rows(steps: Sequence[PricedStep]) -> list[tuple[str, ...]]:
+def _columns(price: str | None) -> tuple[Column, ...]:
+    """Return the columns of a plan, the last one with what the price of an action is called, where it has one."""
+    return COLUMNS if price is None else (*COLUMNS, Column(price, is_number=True))
+
+
+def _rows(steps: Sequence[PricedStep], has_prices: bool) -> list[tuple[str, ...]]:
     texts: dict[int, tuple[str, ...]] = {}  # of priced steps, which long plans repeat
     rows = []
     for index, priced in enumerate(steps, 1):
         if id(priced) not in texts:
-            prices = number(priced.expected_cost), number(priced.risk_cost)
-            texts[id(priced)] = (str(priced.step), str(priced.law), *prices)
+            price = (number(priced.risk_cost),) if has_prices else ()
+            texts[id(priced)] = (str(priced.step), str(priced.law), number(priced.expected_cost), *price)
         rows.append((str(index), *texts[id(priced)]))
     return rows
 
@@ -97,44 +107,66 @@ def _range(laws: Sequence[CostLaw]) -> str:
 
 def _notes(result: Result) -> list[str]:
     if result.plan is None:
-        return [] if result.lower_bound is None else [_at_least(result.lower_bound)]
-    notes = [f"expected utility {result.expected_utility}"]
+        return [] if result.lower_bound is None else [_at_least(result, result.lower_bound)]
+    utility = result.expected_utility
+    notes = [f"value {_value(result)}" if utility is None else f"expected utility {utility}"]
+    notes += [f"{label}: {text}" for label, text in keep_rows(result)]
     if result.status is not Status.OPTIMAL and result.lower_bound is not None:
-        notes.append(f"no plan has a certainty equivalent below {number(result.lower_bound)}")
+        notes.append(f"no plan has a {worth(result)} below {number(result.lower_bound)}")
     return notes
 
 
-def _at_least(bound: float) -> str:
-    return f"every plan has a certainty equivalent of at least {number(bound)}"
+def _value(result: Result) -> str:
+    """Return the value of a plan; with its unit, if it is no cost."""
+    unit = "" if result.objective.unit is ValueUnit.COST else f" ({result.objective.unit})"
+    return f"{number(result.value)}{unit}"
+
+
+def _at_least(result: Result, bound: float) -> str:
+    return f"every plan has a {worth(result)} of at least {number(bound)}"
 
 
 def _summary_rows(result: Result) -> Labelled:
     found = result.plan is not None
     why = f" ({STOPS[result.stopped]})" if found and result.stopped is not None else ""
-    rows = [("status", (STOPS if result.unread and not found else ENDINGS)[result.status] + why)]
+    rows = [("status", (STOPS[result.status] if result.unread and not found else ending(result)) + why)]
     if result.unread:
         rows.append(("found", f"a {'better ' if found else ''}plan, {UNREAD}"))
     if found and not result.validated:
         rows.append(("validated", NOT_VALIDATED))
     if found:
-        rows.append(("expected cost", number(result.expected_cost)))
-        worth = f"{number(result.risk_cost)} (this agent would as soon pay that for certain)"
-        rows.append(("certainty equivalent", worth))
-        rows.append(("expected utility", result.expected_utility or ""))
-    if result.log10_expected_utility is not None:
-        rows.append((log10_label(result), number(result.log10_expected_utility)))
-    rows += _bound_row(result)
-    rows.append(("problem class", f"{result.problem_class} (solver {result.solver}, heuristic {result.heuristic})"))
+        rows += [("expected cost", number(result.expected_cost)), *_worth_rows(result)]
+    rows += [*keep_rows(result), *_bound_row(result)]
+    problem_class = result.problem_class or NO_CLASS
+    rows.append(("problem class", f"{problem_class} (solver {result.solver}, heuristic {result.heuristic})"))
     return rows + effort_rows(result.statistics)
 
 
+def _worth_rows(result: Result) -> Labelled:
+    """Return what a plan is worth: to an agent of the paper, or by another objective."""
+    if result.expected_utility is None:
+        rows = [("value", f"{_value(result)} of '{result.objective}'")]
+        if result.risk_cost is not None and result.objective.unit is not ValueUnit.COST:
+            rows.append(("certainty equivalent", number(result.risk_cost)))
+        return rows
+    rows = [
+        ("certainty equivalent", f"{number(result.risk_cost)} (this agent would as soon pay that for certain)"),
+        ("expected utility", result.expected_utility),
+    ]
+    if result.log10_expected_utility is not None:
+        rows.append((log10_label(result), number(result.log10_expected_utility)))
+    return rows
+
+
 def _bound_row(result: Result) -> Labelled:
-    bound, cost = result.lower_bound, result.risk_cost
+    bound, gap = result.lower_bound, result.gap
     if bound is None:
         return []
-    if cost is None:
-        return [("proven", _at_least(bound))]
-    gap = cost - bound
-    if result.status is Status.OPTIMAL:
-        return [("proven", f"to within {gap:.1g} of the certainty equivalent (rounding)")] if gap > 0 else []
-    return [("proven", f"{_at_least(bound)} (gap {gap:.4g})")]
+    if gap is None:
+        return [("proven", _at_least(result, bound))]
+    if result.status is not Status.OPTIMAL:
+        return [("proven", f"{_at_least(result, bound)} (gap {gap:.4g})")]
+    if gap <= 0:
+        return []
+    why = "" if result.settings.needs_labels else " (rounding)"
+    return [("proven", f"to within {gap:.1g} of the {worth(result)}{why}")]

@@ -10,29 +10,24 @@ from statehtn.counted import counted
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
 from statehtn.display.words import (
-    ENDINGS,
     FAILURE,
+    NO_CLASS,
     STOPS,
     STYLES,
     UNREAD,
     Labelled,
     agent,
     effort_rows,
+    ending,
     head,
+    keep_rows,
     log10_label,
     number,
+    worth,
 )
 from statehtn.model.status import Status
 from statehtn.top_result import RankedPlan, TopPlans
 
-COLUMNS = (
-    Column("", is_number=True),
-    Column("certainty equivalent", is_number=True),
-    Column("expected", is_number=True),
-    Column("expected utility", is_number=True),
-    Column("length", is_number=True),
-    Column("actions"),
-)
 GAP = "…"
 """Stands for what is told elsewhere."""
 
@@ -50,8 +45,9 @@ def top_plans_html(result: TopPlans) -> str:
 
 def readable_top_plans(result: TopPlans) -> str:
     """Return the plans' values, their actions where they differ, what was proven, and the effort."""
-    problem_class = f"{result.problem_class} (solver state, heuristic {result.heuristic})"
-    rows = [*_proven_rows(result), ("problem class", problem_class), *effort_rows(result.statistics)]
+    problem_class = f"{result.problem_class or NO_CLASS} (solver state, heuristic {result.heuristic})"
+    kept = [] if result else keep_rows(result)
+    rows = [*_proven_rows(result), *kept, ("problem class", problem_class), *effort_rows(result.statistics)]
     summary = Summary(rows, STYLES.get(result.status, FAILURE))
     return rendered([_values(result), _actions(result.plans), summary] if result.plans else [summary])
 
@@ -63,34 +59,43 @@ def _head(result: TopPlans) -> str:
 
 def _table(result: TopPlans) -> Table:
     frame, parts = _compact(result.plans)
+    has_utility = result.utility is not None
     rows = [
         (
-            str(plan.rank),
-            *(number(plan.risk_cost), number(plan.expected_cost), plan.expected_utility),
+            *(str(plan.rank), number(plan.value), number(plan.expected_cost)),
+            *((plan.expected_utility or "",) if has_utility else ()),
             *(str(plan.length), part),
         )
         for plan, part in zip(result.plans, parts, strict=True)
     ]
-    return Table(COLUMNS, [("", "", "", "", "", frame), *rows] if frame else rows)
+    heads = ("", worth(result), "expected", *(("expected utility",) if has_utility else ()), "length")
+    columns = [*(Column(text, is_number=True) for text in heads), Column("actions")]
+    return Table(columns, [(*("" for _ in heads), frame), *rows] if frame else rows)
 
 
 def _values(result: TopPlans) -> Table:
     """Return a table of what the plans are worth; for a neutral agent three columns would say the same."""
-    is_neutral = result.attitude == "neutral"
-    worth = [] if is_neutral else ["certainty equivalent"]
-    log10 = [] if is_neutral else [log10_label(result)]
-    heads = ("", *worth, "expected cost", "expected utility", *log10, "actions", "")
-    rows = [
-        (
-            str(plan.rank),
-            *(() if is_neutral else (number(plan.risk_cost),)),
-            *(number(plan.expected_cost), plan.expected_utility),
-            *(() if is_neutral else (number(plan.log10_expected_utility),)),
-            *(str(plan.length), "" if plan.is_proven else "not proven"),
-        )
-        for plan in result
-    ]
-    return Table([Column(text, is_number=True) for text in heads], rows, title=f"{_count(result)} for {agent(result)}")
+    rows = []
+    for plan in result:
+        cells = {
+            "": str(plan.rank),
+            worth(result): number(plan.value),
+            "expected cost": number(plan.expected_cost),
+            "expected utility": plan.expected_utility or "",
+            log10_label(result): number(plan.log10_expected_utility),
+            **{f"within {number(one.budget)}": number(one.attained) for one in plan.keep},
+            "actions": str(plan.length),
+            " ": "" if plan.is_proven else "not proven",
+        }
+        if result.attitude == "neutral":
+            del cells[worth(result)]
+        if result.attitude == "neutral" or result.utility is None:
+            del cells[log10_label(result)]
+        if result.utility is None:
+            del cells["expected utility"]
+        rows.append(cells)
+    columns = [Column(text.strip(), is_number=True) for text in rows[0]]
+    return Table(columns, [tuple(cells.values()) for cells in rows], title=f"{_count(result)} {agent(result)}")
 
 
 def _count(result: TopPlans) -> str:
@@ -131,23 +136,25 @@ def _shared(sequences: Sequence[Sequence[str]]) -> int:
 
 
 def _proven_rows(result: TopPlans) -> Labelled:
-    others = f"has a certainty equivalent below {number(result.lower_bound)}"
+    others = f"has a {worth(result)} below {number(result.lower_bound)}"
     up_to_order = "" if result.distinct == "sequence" else ", but for these with their actions in another order"
     if not result.plans:
         if result.unread:
             return [("status", STOPS[result.status]), ("found", f"plans, {UNREAD}")]
-        rows = [("status", ENDINGS[result.status])]
+        rows = [("status", ending(result))]
         if result.status is Status.UNSOLVABLE or result.lower_bound is None:
             return rows
         return [*rows, ("proven", f"no plan {others}")]
     if result.is_all:
         return [("status", f"optimal: this problem has no other plans{up_to_order}")]
     if result.status is Status.OPTIMAL:
-        rows = [("status", f"optimal: no other plan has a higher expected utility{up_to_order}")]
-        gap = result.plans[-1].risk_cost - (result.lower_bound or 0)
-        return [*rows, ("proven", f"to within {gap:.1g} of the certainty equivalents (rounding)")] if gap > 0 else rows
+        better = "has a higher expected utility" if result.utility else f"has a lower value of '{result.objective}'"
+        rows = [("status", f"optimal: no other plan {better}{up_to_order}")]
+        gap = 0.0 if result.lower_bound is None else result.plans[-1].value - result.lower_bound
+        why = "" if result.settings.needs_labels else " (rounding)"
+        return [*rows, ("proven", f"to within {gap:.1g} of the {worth(result)}s{why}")] if gap > 0 else rows
     if result.stopped is None:
-        rows = [("status", "solved: there may be better plans, within the error of the certainty equivalents")]
+        rows = [("status", f"solved: there may be better plans, within the error of the {worth(result)}s")]
     else:
         wanted = "a plan was" if result.k == 1 else f"{result.k} plans were"
         rows = [("status", f"{STOPS[result.stopped]} before {wanted} found and proven to be the best")]

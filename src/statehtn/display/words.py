@@ -12,7 +12,6 @@ Labelled = list[tuple[str, str]]
 """Labels, and what each says."""
 
 ENDINGS = {
-    Status.OPTIMAL: "optimal: no plan of this problem has a higher expected utility",
     Status.SOLVED: "solved: there may be a better plan",
     Status.UNSOLVABLE: "unsolvable: it is proven that this problem has no plan",
     Status.GAVE_UP: "exhausted: the search found no plan, but it does not look everywhere; there may be one",
@@ -25,6 +24,7 @@ STOPS = {
     Status.MEMORY_LIMIT: "memory limit reached",
     Status.INTERRUPTED: "interrupted",
 }
+NO_CLASS = "none of the paper's"
 UNREAD = "but too many tasks to put together before the run ended"
 SUCCESS, FAILURE = "bold green", "bold red"
 STYLES = {Status.OPTIMAL: SUCCESS, Status.SOLVED: "bold yellow"}
@@ -36,20 +36,56 @@ def number(value: float | None) -> str:
     return "" if value is None else f"{value:.10g}"
 
 
+def ending(result: Result | TopPlans) -> str:
+    """Return how a run ended, in words."""
+    budgets = " and ".join(f"{number(one.budget)} with probability {number(one.probability)}" for one in result.keep)
+    if result.status is Status.UNSOLVABLE and result.largest:
+        return f"unsolvable: it is proven that no plan of this problem keeps {budgets}"
+    if result.status is not Status.OPTIMAL:
+        return ENDINGS[result.status]
+    if result.utility is not None:
+        better = "has a higher expected utility"
+    else:
+        better = f"has a lower value of '{result.objective}'"
+    return f"optimal: no plan of this problem {f'that keeps {budgets} ' if budgets else ''}{better}"
+
+
 def agent(result: Result | TopPlans) -> str:
-    """Return the agent of a result, such as `a risk-averse agent with alpha 0.5`."""
-    return f"a risk-{result.attitude} agent" + ("" if result.alpha is None else f" with alpha {number(result.alpha)}")
+    """Return for whom plans are made, such as `for a risk-averse agent with alpha 0.5` or `by 'cvar 0.95'`."""
+    if result.utility is None:
+        return f"by '{result.objective}'"
+    alpha = "" if result.alpha is None else f" with alpha {number(result.alpha)}"
+    return f"for a risk-{result.attitude} agent{alpha}"
 
 
 def head(result: Result | TopPlans) -> str:
     """Return the status and the agent of a result, such as `status: optimal (risk-averse, alpha 0.5)`."""
+    if result.utility is None:
+        return f"status: {result.status} ({result.objective})"
     alpha = "" if result.alpha is None else f", alpha {result.alpha:g}"
     return f"status: {result.status} (risk-{result.attitude}{alpha})"
+
+
+def worth(result: Result | TopPlans) -> str:
+    """Return what the objective's values are called."""
+    return "value" if result.utility is None else "certainty equivalent"
 
 
 def log10_label(result: Result | TopPlans) -> str:
     """Return what the paper's column of logarithms shows for an agent."""
     return "-log10 |EU|" if result.attitude == "averse" else "log10 EU"
+
+
+def keep_rows(result: Result | TopPlans) -> Labelled:
+    """Return how well each budget is kept, by the plan or, where no plan keeps them all, by the best one for it."""
+    rows = []
+    for one in result.keep:
+        if one.attained is not None:
+            best = "" if result else " at most, by the plan that is best at it"
+            rows.append((f"within {number(one.budget)}", f"with probability {number(one.attained)}{best}"))
+    if not result and len(rows) > 1 and all((one.attained or 0) >= one.probability for one in result.keep):
+        rows.append(("together", "each of these budgets can be kept, but no plan keeps all of them"))
+    return rows
 
 
 def effort_rows(effort: Statistics) -> Labelled:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import IO, Any
 
 from unified_planning.engines import Credits, Engine, LogMessage, PlanGenerationResult, ValidationResult
@@ -21,7 +21,8 @@ from statehtn.errors import InputError, StateHtnError, UsageError
 from statehtn.interop.conversion import Conversion
 from statehtn.interop.costs import CostParts
 from statehtn.interop.metric import metric_value
-from statehtn.risk import Attitude
+from statehtn.risk import Attitude, ObjectiveLike
+from statehtn.settings import KeepLike
 from statehtn.validation import validate
 
 
@@ -29,11 +30,13 @@ class StateHtnEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanValid
     """Plans for hierarchical problems, optimally where there is a metric, and validates hierarchical plans.
 
     Args:
-        attitude: neutral, averse or seeking.
+        objective: what plans are compared by, as for `statehtn.plan`, such as `cvar 0.95`.
+        attitude: neutral, averse or seeking: with alpha a short form of an objective; neutral where neither is given.
         alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
+        keep: budgets that plans have to keep with a probability, such as `25 0.95`.
         heuristic: one of `statehtn.engine.ADMISSIBLE`; without it what is best in general.
         cost_distributions: uncertain costs by action or name of an action, as for `statehtn.from_unified_planning`; the
-            plan of maximum expected utility is then the optimal one. The validator leaves them out.
+            best plan by the objective is then the optimal one. The validator leaves them out.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
 
     Raises:
@@ -43,8 +46,10 @@ class StateHtnEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanValid
     def __init__(
         self,
         *,
-        attitude: Attitude | str = Attitude.NEUTRAL,
+        objective: ObjectiveLike | None = None,
+        attitude: Attitude | str | None = None,
         alpha: float | str | None = None,
+        keep: KeepLike | Iterable[KeepLike] = (),
         heuristic: str | None = None,
         cost_distributions: Mapping[Any, CostParts] | None = None,
         memory_limit: float | str | None = None,
@@ -54,7 +59,7 @@ class StateHtnEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanValid
         OneshotPlannerMixin.__init__(self)
         AnytimePlannerMixin.__init__(self)
         warn_of(unknown, "the unknown parameter")
-        self._parameters = Parameters.of(attitude, alpha, heuristic, cost_distributions, memory_limit)
+        self._parameters = Parameters.of(objective, attitude, alpha, keep, heuristic, cost_distributions, memory_limit)
 
     @property
     def name(self) -> str:

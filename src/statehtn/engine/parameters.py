@@ -12,8 +12,8 @@ from unified_planning.exceptions import UPUsageError
 from statehtn.core.searches import TAKES
 from statehtn.interop.costs import CostParts
 from statehtn.limits import Limits
-from statehtn.risk import Attitude, AttitudeName, Utility, utility_for
-from statehtn.settings import Settings
+from statehtn.risk import Attitude, AttitudeName, Keep, Objective, ObjectiveLike
+from statehtn.settings import KeepLike, Settings, objective_of
 
 NAME = "statehtn"
 ADMISSIBLE = TAKES["state", "anytime"]
@@ -24,15 +24,18 @@ ADMISSIBLE = TAKES["state", "anytime"]
 class Parameters:
     """For whom plans are made, and how; described at `StateHtnEngine`."""
 
-    objective: Utility
+    objective: Objective
+    keep: tuple[Keep, ...]
     heuristic: str | None
     cost_distributions: Mapping[Any, CostParts] | None
     memory_limit: float | None
 
     @staticmethod
     def of(
-        attitude: Attitude | str,
+        objective: ObjectiveLike | None,
+        attitude: Attitude | str | None,
         alpha: float | str | None,
+        keep: KeepLike | Iterable[KeepLike],
         heuristic: str | None,
         cost_distributions: Mapping[Any, CostParts] | None,
         memory_limit: float | str | None,
@@ -46,12 +49,12 @@ class Parameters:
             raise UPUsageError(f"{NAME}: the heuristic is one of {', '.join(ADMISSIBLE)}, found '{heuristic}'")
         try:
             numbers = [None if number is None else float(number) for number in (alpha, memory_limit)]
-            objective = utility_for(cast("AttitudeName", attitude), numbers[0])
-            Settings.of(objective, heuristic=heuristic)
+            wanted = objective_of(objective, cast("AttitudeName | None", attitude), numbers[0])
+            settings = Settings.of(wanted, heuristic=heuristic, keep=keep)
             Limits.starting_now(None, numbers[1])
         except ValueError as error:  # all errors of usage are
             raise UPUsageError(f"{NAME}: {error}") from None
-        return Parameters(objective, heuristic, cost_distributions, numbers[1])
+        return Parameters(wanted, settings.keep, heuristic, cost_distributions, numbers[1])
 
 
 def warn_of(unknown: Iterable[str], what: str) -> None:

@@ -17,8 +17,9 @@ from statehtn.errors import InternalError, StateHtnError, UsageError
 from statehtn.interop.conversion import Conversion
 from statehtn.limits import Limits
 from statehtn.model.status import Status
-from statehtn.pipeline import Session, solutions
+from statehtn.pipeline import solutions
 from statehtn.result import Result
+from statehtn.session import Session
 from statehtn.settings import Settings
 
 SHORTEST_SECONDS = 1e-3  # what is left to the search where converting the problem took all the time
@@ -76,12 +77,14 @@ class _Run:
 
     def one_plan(self) -> Iterator[PlanGenerationResult]:
         """Yield an optimal plan, or any plan where nothing is to be optimised."""
-        for result in self.search("astar" if self.optimises or self.parameters.heuristic else "greedy"):
+        asks_more = self.parameters.heuristic or self.parameters.keep
+        for result in self.search("astar" if self.optimises or asks_more else "greedy"):
             yield self.final(result)
 
     def search(self, search: str, every_plan: bool = False) -> Iterator[Result]:
         """Search for a plan; yield better and better ones, if `every_plan`, and last how the run ended."""
-        settings = Settings.of(self.parameters.objective, heuristic=self.parameters.heuristic, search=search)
+        known = self.parameters
+        settings = Settings.of(known.objective, heuristic=known.heuristic, search=search, keep=known.keep)
         return solutions(Session(self.conversion.problem), settings, self.limits, self.progress, every_plan)
 
     def every_plan(self) -> Iterator[PlanGenerationResult]:
@@ -121,6 +124,7 @@ class _Run:
             "engine_internal_time": time.monotonic() - self.start,
             "expected_cost": result.expected_cost,
             "risk_cost": result.risk_cost,
+            "value": result.value,
             "expected_utility": result.expected_utility,
             "lower_bound": result.lower_bound,
             "expanded": statistics.expanded,

@@ -8,11 +8,13 @@ from typing import Any
 from statehtn.experiments.run import Run
 from statehtn.model.status import Status
 
-KEY_COLUMNS = ("domain", "problem", "attitude", "alpha", "solver", "heuristic", "repeat")
-RESULT_COLUMNS = ("risk_cost", "lower_bound", "expected_cost", "log10_expected_utility", "length")
+KEY_COLUMNS = ("domain", "problem", "objective", "keep", "solver", "heuristic", "repeat")
+AGENT_COLUMNS = ("attitude", "alpha")
+"""Of neutral, averse and seeking agents, whose objectives they say in another way."""
+RESULT_COLUMNS = ("risk_cost", "value", "lower_bound", "gap", "expected_cost", "log10_expected_utility", "length")
 EFFORT_COLUMNS = ("facts", "actions", "tasks", "methods", "expanded", "generated", "evaluated")
 MEASURED_COLUMNS = ("parse_seconds", "ground_seconds", "search_seconds", "peak_memory_mb")
-COLUMNS = (*KEY_COLUMNS, "status", *RESULT_COLUMNS, *EFFORT_COLUMNS, *MEASURED_COLUMNS)
+COLUMNS = (*KEY_COLUMNS, *AGENT_COLUMNS, "status", *RESULT_COLUMNS, *EFFORT_COLUMNS, *MEASURED_COLUMNS)
 MEASURED_DIGITS = 6
 
 Row = dict[str, str]
@@ -54,8 +56,10 @@ class Record:
         result = self.result or {}
         effort = result.get("statistics") or {}
         measured = {column: effort.get(column) for column in MEASURED_COLUMNS}
+        run = self.run.to_dict()
         values = [
             *self.run.key,
+            *(_text(run[column]) for column in AGENT_COLUMNS),
             self.status,
             *(_text(result.get(column)) for column in RESULT_COLUMNS),
             *(_text(effort.get(column)) for column in EFFORT_COLUMNS),

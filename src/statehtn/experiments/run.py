@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
+from statehtn.compatible import NOTHING, mismatch
 from statehtn.errors import UsageError
 from statehtn.limits import Limits
-from statehtn.risk import Attitude, Neutral, Utility
+from statehtn.risk import Attitude, Keep, Neutral, Objective, agent_in, objective
 from statehtn.risk import agents_of as combined
-from statehtn.settings import NOTHING, Settings, mismatch
+from statehtn.settings import Settings
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,12 +39,11 @@ class Run:
     def key(self) -> tuple[str, ...]:
         """What tells the run from others: the first columns of its row."""
         settings = self.settings
-        agent = settings.objective
         return (
             self.instance.domain,
             self.instance.problem,
-            str(agent.attitude),
-            "" if agent.alpha is None else repr(agent.alpha),
+            str(settings.objective),
+            "; ".join(map(str, settings.keep)),
             solver_label(settings.solver, settings.search, settings.without),
             settings.heuristic,
             str(self.repeat),
@@ -52,10 +52,14 @@ class Run:
     def to_dict(self) -> dict[str, Any]:
         """Return the run as the records have it."""
         settings = self.settings
+        agent = agent_in(settings.objective)
         return {
             "instance": asdict(self.instance),
-            "attitude": str(settings.objective.attitude),
-            "alpha": settings.objective.alpha,
+            "attitude": None if agent is None else str(agent.attitude),
+            "alpha": None if agent is None else agent.alpha,
+            "objective": str(settings.objective),
+            "keep": list(map(str, settings.keep)),
+            "precision": settings.precision,
             "solver": settings.solver,
             "heuristic": settings.heuristic,
             "search": settings.search,
@@ -68,9 +72,10 @@ class Run:
     def arguments(self) -> list[str]:
         """Return the command line of this run, without the program's name."""
         known = self.to_dict()
-        options = ("attitude", "alpha", "solver", "heuristic", "search", "without", "time_limit", "memory_limit")
+        options = ("objective", "precision", "solver", "heuristic", "search", "without", "time_limit", "memory_limit")
         return [
             *("plan", "--json"),
+            *(text for budget in known["keep"] for text in ("--keep", budget)),
             *(
                 text
                 for name in options
@@ -86,21 +91,25 @@ class Grid:
     """What every instance is run with: all combinations that exist, `repeat` times. What is not said is None or empty.
 
     Args:
-        agents: neutral alone where nobody is named.
+        objectives: neutral alone where none is named.
         solvers: `state` where none is named.
         heuristics: the own one of solver and search where none is named.
         searches: `astar` where none is named.
         without: refinements to leave out, as `Settings.of` takes them; the complete search where nothing is said.
+        keep: budgets that all plans have to keep.
+        precision: as `Settings.of` takes it.
         repeat: at least 1; once where it is not said.
         time_limit: seconds for each run, reading included.
         memory_limit: resident memory of each run in MB (10^6 bytes).
     """
 
-    agents: Sequence[Utility] = ()
+    objectives: Sequence[Objective] = ()
     solvers: Sequence[str] = ()
     heuristics: Sequence[str] = ()
     searches: Sequence[str] = ()
     without: Sequence[tuple[str, ...]] = ()
+    keep: Sequence[Keep] = ()
+    precision: float | None = None
     repeat: int | None = None
     time_limit: float | None = None
     memory_limit: float | None = None
@@ -110,24 +119,25 @@ class Grid:
         values = [(getattr(self, field.name), getattr(other, field.name)) for field in fields(self)]
         return Grid(*(theirs if ours is None or ours == () else ours for ours, theirs in values))
 
-    def combinations(self) -> list[tuple[str, str | None, str, tuple[str, ...]]]:
-        """Return every solver with every heuristic, search and omission, those included that do not exist."""
-        names = self.solvers or ("state",), self.heuristics or (None,), self.searches or ("astar",)
-        return list(product(*names, self.without or ((),)))
+    def combinations(self) -> list[Combination]:
+        """Return every solver with every heuristic, search, omission and objective, also those that do not exist."""
+        return [
+            Combination(solver, heuristic, search, without, objective, tuple(self.keep))
+            for objective in self.objectives or (Neutral(),)
+            for solver in self.solvers or ("state",)
+            for heuristic in self.heuristics or (None,)
+            for search in self.searches or ("astar",)
+            for without in self.without or ((),)
+        ]
 
     def runs(self, instances: Iterable[Instance]) -> list[Run]:
         """Return the runs on these instances: all of them once, then all of them again; none twice.
 
         Raises:
-            UsageError: an agent, a name or a limit makes no sense.
+            UsageError: an objective, a name or a limit makes no sense.
         """
         Limits.starting_now(self.time_limit, self.memory_limit)
-        wanted = [
-            Settings.of(agent, solver, heuristic, search, without=without)
-            for agent in self.agents or (Neutral(),)
-            for solver, heuristic, search, without in self.combinations()
-            if not mismatch(solver, heuristic, search, without)
-        ]
+        wanted = [one.settings(self.precision) for one in self.combinations() if one.mismatch is None]
         runs = [
             Run(instance, settings, repeat, self.time_limit, self.memory_limit)
             for repeat, instance in product(range(1, (self.repeat or 1) + 1), instances)
@@ -136,19 +146,51 @@ class Grid:
         return list(dict.fromkeys(runs))
 
 
+class Combination(NamedTuple):
+    """What one run is given; it may not exist."""
+
+    solver: str
+    heuristic: str | None
+    search: str
+    without: tuple[str, ...]
+    objective: Objective
+    keep: tuple[Keep, ...]
+
+    @property
+    def mismatch(self) -> str | None:
+        """Why there is no such run; None if there is."""
+        return mismatch(*self)
+
+    @property
+    def label(self) -> str:
+        """The solver and its settings, in words."""
+        return f"{solver_label(self.solver, self.search, self.without)} {self.heuristic or ''}".strip()
+
+    def settings(self, precision: float | None) -> Settings:
+        """Return what one run is to do.
+
+        Raises:
+            UsageError: a name or a number makes no sense.
+        """
+        names = self.solver, self.heuristic, self.search
+        return Settings.of(self.objective, *names, without=self.without, keep=self.keep, precision=precision)
+
+
 def solver_label(solver: str, search: str, without: Sequence[str]) -> str:
     """Return the solver as the table of results has it; a search other than A*, and what it lacks, go with it."""
     lacks = f" without {'+'.join(without)}" if without else ""
     return f"{solver}{'' if search == 'astar' else f'/{search}'}{lacks}"
 
 
-def agents_of(attitudes: Sequence[str], alphas: Sequence[float]) -> tuple[Utility, ...]:
-    """Combine attitudes with alphas; a neutral agent has none, the others each of them.
+def objectives_of(
+    attitudes: Sequence[str], alphas: Sequence[float], objectives: Sequence[str] = ()
+) -> tuple[Objective, ...]:
+    """Combine attitudes with alphas, of which a neutral agent has none, the others each; then other objectives.
 
     Raises:
-        UsageError: an alpha is missing, or there is nobody to have it.
+        UsageError: an alpha is missing, or there is nobody to have it; or there is no such objective.
     """
     curved = [attitude for attitude in attitudes if attitude != "neutral"]
     if bool(curved) != bool(alphas):
         raise UsageError(f"an agent that is {curved[0]} needs an alpha" if curved else "a neutral agent has no alpha")
-    return combined(map(Attitude, attitudes), alphas)
+    return tuple(dict.fromkeys((*combined(map(Attitude, attitudes), alphas), *map(objective, objectives))))

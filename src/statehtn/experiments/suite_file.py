@@ -7,18 +7,22 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from statehtn.compatible import HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES, switches_in
 from statehtn.core.searches import SEARCHES
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import is_domain
-from statehtn.experiments.run import Grid, Instance, agents_of
+from statehtn.experiments.run import Grid, Instance, objectives_of
 from statehtn.keyed_file import KeyedTable, read_tables
-from statehtn.risk import Attitude
-from statehtn.settings import HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES, switches_in
+from statehtn.risk import Attitude, Keep
+from statehtn.settings import keeps
 
 Part = tuple[Grid, list[Instance]]
 """Problems, and what they are run with."""
-AGENT_KEYS = ("attitudes", "alphas")
-GRID_KEYS = (*AGENT_KEYS, "solvers", "heuristics", "searches", "without", "repeat", "time-limit", "memory-limit")
+AGENT_KEYS = ("attitudes", "alphas", "objectives")
+GRID_KEYS = (
+    *(*AGENT_KEYS, "keep", "precision"),
+    *("solvers", "heuristics", "searches", "without", "repeat", "time-limit", "memory-limit"),
+)
 """Keys of the whole file, and of each `[[runs]]`, whose values count there instead."""
 RUNS_KEYS = ("domain", "problems", "name", *GRID_KEYS)
 
@@ -42,20 +46,22 @@ def read_suite(file: Path) -> list[Part]:
 def _part(file: Path, common: Mapping[str, Any], own: Mapping[str, Any], number: int) -> Part:
     """Read a table `[[runs]]`; `common` is what the whole file says."""
     _Table(f"{file}: [[runs]] {number}", own).check_keys(RUNS_KEYS)
-    if any(key in own for key in AGENT_KEYS):  # attitudes and alphas belong together
+    if any(key in own for key in AGENT_KEYS):  # they say together who plans
         common = {key: value for key, value in common.items() if key not in AGENT_KEYS}
     table = _Table(f"{file}: [[runs]] {number}", {**common, **own})
     attitudes = table.names("attitudes", [str(attitude) for attitude in Attitude])
     try:
-        agents = agents_of(attitudes, table.alphas())
+        objectives = objectives_of(attitudes, table.alphas(), table.objectives())
     except UsageError as error:
-        raise InputError(f"{table.place}: {error} ('attitudes', 'alphas')") from None
+        raise InputError(f"{table.place}: {error} ({', '.join(map(repr, AGENT_KEYS))})") from None
     grid = Grid(
-        agents=agents,
+        objectives=objectives,
         solvers=table.names("solvers", SOLVERS),
         heuristics=table.names("heuristics", HEURISTIC_CHOICES),
         searches=table.names("searches", SEARCHES),
         without=table.omissions("without"),
+        keep=table.keep(),
+        precision=table.positive("precision"),
         repeat=table.repeat(),
         time_limit=table.positive("time-limit"),
         memory_limit=table.positive("memory-limit"),
@@ -118,6 +124,15 @@ class _Table(KeyedTable):
             except UsageError:
                 self.complain(key, f"'{NOTHING}' alone, or some of {', '.join(SWITCHES)} joined by +", text)
         return list(omissions)
+
+    def objectives(self) -> list[str]:
+        return self.texts("objectives") if "objectives" in self.values else []
+
+    def keep(self) -> tuple[Keep, ...]:
+        try:
+            return keeps(self.texts("keep") if "keep" in self.values else ())
+        except UsageError as error:
+            raise InputError(f"{self.place}: {error} ('keep')") from None
 
     def alphas(self) -> list[float]:
         value = self.values.get("alphas", [])

@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
+from statehtn.compatible import SOLVERS
 from statehtn.errors import InputError, UsageError
 from statehtn.experiments.instances import find_instances
-from statehtn.experiments.run import Grid, Instance, Run, solver_label
+from statehtn.experiments.run import Grid, Instance, Run
 from statehtn.experiments.suite_file import Part, read_suite
 from statehtn.risk import Neutral, agents_of
-from statehtn.settings import SOLVERS, mismatch
 
 DEFAULTS = Grid(repeat=1, time_limit=60.0, memory_limit=4000.0)
 """What holds where neither the user nor the suite says anything."""
@@ -63,8 +63,8 @@ def paper(root: Path | None) -> list[Part]:
     vehicle = [_instance(domains, "av", name) for name in AV_PROBLEMS]
     satellite = [_instance(domains, "satellite", name) for name in SATELLITE_PROBLEMS]
     return [
-        (Grid(agents=AV_AGENTS, solvers=tuple(SOLVERS)), vehicle),
-        (Grid(agents=SATELLITE_AGENTS + OTHER_SATELLITE_AGENTS, solvers=tuple(SOLVERS)), satellite),
+        (Grid(objectives=AV_AGENTS, solvers=tuple(SOLVERS)), vehicle),
+        (Grid(objectives=SATELLITE_AGENTS + OTHER_SATELLITE_AGENTS, solvers=tuple(SOLVERS)), satellite),
     ]
 
 
@@ -79,7 +79,7 @@ def satellite_large(root: Path | None) -> list[Part]:
     if not names:
         raise InputError(f"there is no problem in '{domains / 'satellite/large'}'")
     instances = [_instance(domains, "satellite", f"large/{name}") for name in names]
-    return [(Grid(agents=SATELLITE_AGENTS, solvers=tuple(SOLVERS)), instances)]
+    return [(Grid(objectives=SATELLITE_AGENTS, solvers=tuple(SOLVERS)), instances)]
 
 
 def _own_domains(root: Path | None) -> Path:
@@ -148,13 +148,11 @@ def _warn_of_missing(grids: Sequence[Grid]) -> None:
     Raises:
         UsageError: nothing is left of one.
     """
-    texts = {}
+    texts: dict[str, str] = {}
     for grid in grids:
-        for solver, heuristic, search, without in grid.combinations():
-            if reason := mismatch(solver, heuristic, search, without):
-                settings = f"{solver_label(solver, search, without)} {heuristic or ''}".strip()
-                texts[settings] = reason
-        if all(mismatch(*names) for names in grid.combinations()):
+        missing = {one.label: one.mismatch for one in grid.combinations() if one.mismatch is not None}
+        texts |= missing
+        if all(one.mismatch is not None for one in grid.combinations()):
             raise UsageError(f"none of these settings exists: {', '.join(texts)}; {'; '.join(set(texts.values()))}")
     for reason in dict.fromkeys(texts.values()):
         settings = ", ".join(name for name, text in texts.items() if text == reason)

@@ -7,10 +7,10 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from statehtn.experiments.records import KEY_COLUMNS, Row
+from statehtn.experiments.records import Row
 from statehtn.model.status import Status
 
-SETTINGS = tuple(column for column in KEY_COLUMNS if column not in ("domain", "problem", "repeat"))
+SETTINGS = ("objective", "keep", "solver", "heuristic")
 SOLVED = (Status.OPTIMAL, Status.SOLVED)
 NO_PLAN = (Status.UNSOLVABLE, Status.GAVE_UP)
 LIMITS = (Status.TIME_LIMIT, Status.MEMORY_LIMIT, "killed")
@@ -22,7 +22,7 @@ class Summary:
 
     Args:
         domain: the runs' domain.
-        settings: attitude, alpha, solver and heuristic.
+        settings: objective, budgets to keep, solver and heuristic.
         runs: how many; each is either in `solved`, `no_plan`, `limits` or `errors`.
         grounded: runs that got as far as the search.
         optimal: runs whose plan is proven optimal; they are in `solved`, too.

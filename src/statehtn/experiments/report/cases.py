@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
+import re
 import statistics
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from statehtn.compatible import HEURISTIC_CHOICES, SOLVERS
 from statehtn.experiments.report.results import Agent, Outcome
 from statehtn.experiments.summary import SOLVED
 from statehtn.model.status import Status
-from statehtn.settings import HEURISTIC_CHOICES, SOLVERS
 
 BEST_TO_WORST = (
     *(Status.OPTIMAL, Status.UNSOLVABLE, Status.SOLVED, Status.GAVE_UP),
@@ -18,6 +20,7 @@ BEST_TO_WORST = (
 )
 ANSWERS = (*SOLVED, Status.UNSOLVABLE)
 TOLERANCE = 1e-6
+_NUMBER = re.compile(r"[0-9.]+(e[-+]?[0-9]+)?")
 Question = tuple[str, str, Agent]
 """A domain, a problem, an agent."""
 
@@ -40,7 +43,7 @@ class Case:
 
     @property
     def agent(self) -> Agent:
-        """The attitude and alpha."""
+        """The objective, and the budgets to keep."""
         return self.outcomes[0].agent
 
     @property
@@ -66,7 +69,7 @@ class Case:
     @cached_property
     def best(self) -> Outcome:
         """The repeat with the best plan; the first one where several are."""
-        return min(self.outcomes, key=lambda outcome: float("inf") if outcome.risk_cost is None else outcome.risk_cost)
+        return min(self.outcomes, key=lambda outcome: float("inf") if outcome.value is None else outcome.value)
 
     @cached_property
     def seconds(self) -> float | None:
@@ -104,30 +107,32 @@ def by_question(cases: Iterable[Case]) -> dict[Question, list[Case]]:
 
 def best_of(cases: Iterable[Case]) -> Outcome | None:
     """Return the best outcome with a plan; of equal ones a proven one, then the first one. None if there is no plan."""
-    found = [(case.best.risk_cost, case.best) for case in cases if case.best.risk_cost is not None]
+    found = [(case.best.value, case.best) for case in cases if case.best.value is not None]
     if not found:
         return None
-    least = min(cost for cost, _ in found)
-    return min((best for cost, best in found if cost <= least + _margin(least)), key=lambda best: _badness(best.status))
+    least = min(value for value, _ in found)
+    return min(
+        (best for value, best in found if value <= least + _margin(least)), key=lambda best: _badness(best.status)
+    )
 
 
 def contradictions(cases: Iterable[Case]) -> list[str]:
     """Return the questions to which proven answers contradict each other, in words.
 
-    They do if one run has proven a lower bound above the risk cost of another's plan, or that there is no plan.
+    They do if one run has proven a lower bound above the value of another's plan, or that there is no plan.
     """
     found = []
     for (domain, problem, agent), group in by_question(cases).items():
         outcomes = [outcome for case in group for outcome in case.outcomes]
-        costs = [outcome.risk_cost for outcome in outcomes if outcome.risk_cost is not None]
-        if not costs:
+        values = [outcome.value for outcome in outcomes if outcome.value is not None]
+        if not values:
             continue
-        bound = max((outcome.lower_bound for outcome in outcomes if outcome.lower_bound is not None), default=0.0)
-        what = f"{domain}, {problem}, {agent_text(agent)}"
+        bound = max((outcome.lower_bound for outcome in outcomes if outcome.lower_bound is not None), default=-math.inf)
+        what = f"{domain}, {problem}, {agent}"
         if any(outcome.status == Status.UNSOLVABLE for outcome in outcomes):
             found.append(f"{what}: there is a plan, and a proof that there is none")
-        elif bound > min(costs) + _margin(min(costs)):
-            found.append(f"{what}: there is a plan of {min(costs):.10g}, and a proof that none is below {bound:.10g}")
+        elif bound > min(values) + _margin(min(values)):
+            found.append(f"{what}: there is a plan of {min(values):.10g}, and a proof that none is below {bound:.10g}")
     return found
 
 
@@ -143,25 +148,20 @@ def order(settings: str) -> tuple[int, int, str]:
     )
 
 
-def agent_order(agent: Agent) -> tuple[float, str, float]:
-    """Return what agents are sorted by: from the most averse over the neutral to the most seeking."""
-    attitude, alpha = agent
+def agent_order(agent: Agent) -> tuple[float, str]:
+    """Return what agents are sorted by: from the most averse over the neutral and others to the most seeking."""
+    attitude, _, rest = agent.partition(" ")
     sign = {"averse": -1.0, "seeking": 1.0}.get(attitude, 0.0)
-    return sign * (alpha or 0.0), attitude, alpha or 0.0
-
-
-def agent_text(agent: Agent) -> str:
-    """Return the name of an agent."""
-    attitude, alpha = agent
-    return attitude if alpha is None else f"{attitude} {alpha:.10g}"
+    alpha = rest.partition(" ")[0]
+    return sign * (float(alpha) if sign and _NUMBER.fullmatch(alpha) else 0.0), agent
 
 
 def _badness(status: str) -> int:
     return BEST_TO_WORST.index(status) if status in BEST_TO_WORST else len(BEST_TO_WORST)
 
 
-def _margin(cost: float) -> float:
-    return TOLERANCE * max(1.0, abs(cost))
+def _margin(value: float) -> float:
+    return TOLERANCE * max(1.0, abs(value))
 
 
 def _median(values: Iterable[float | None]) -> float | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from statehtn.experiments.report.cases import Case, Question, agent_order, agent_text, best_of, by_question
+from statehtn.experiments.report.cases import Case, Question, agent_order, best_of, by_question
 from statehtn.experiments.report.plots import DASHES, Curve, Look, distributions
 from statehtn.experiments.report.results import Agent, Outcome
 from statehtn.experiments.report.tables import Cell, Column, Table, number
@@ -66,11 +66,11 @@ def _looks(agents: Sequence[Agent]) -> dict[Agent, Look]:
     """Give each agent a colour by its attitude, the more extreme the stronger; and a dash pattern."""
     looks = {}
     for attitude, sign in (("averse", 1), ("seeking", -1)):
-        own = [agent for agent in agents if agent[0] == attitude][::sign]  # from the most extreme on
+        own = [agent for agent in agents if agent.split()[0] == attitude][::sign]  # from the most extreme on
         for rank, agent in enumerate(own):
             dash = list(DASHES)[min(rank, len(DASHES) - 1)]
             looks[agent] = Look(f"{attitude}-{min(rank, SHADES - 1) + 1}", dash=dash)
-    others = [agent for agent in agents if agent not in looks and agent[0] != "neutral"]
+    others = [agent for agent in agents if agent not in looks and agent != "neutral"]
     looks |= {agent: Look(f"series-{index % 6 + 1}", dash="mixed") for index, agent in enumerate(others)}
     return {agent: looks.get(agent, Look("neutral")) for agent in agents}
 
@@ -96,11 +96,11 @@ def _picture(
         drawn |= dict.fromkeys(group, looks[mildest])
     columns = [
         Column("agent", is_text=True),
-        *(Column(label) for label in ("expected", "equivalent", "least", "5 %", "median", "95 %", "most")),
+        *(Column(label) for label in ("expected", "value", "least", "5 %", "median", "95 %", "most")),
     ]
     rows = [_row(outcome, total) for outcome, total in zip(outcomes, totals, strict=True)]
     label = f"Distributions of the total cost in {problem}: " + "; ".join(
-        f"{agent_text(outcome.agent)} from {total.least:g} to {total.most:g}, expected {total.mean:g}"
+        f"{outcome.agent} from {total.least:g} to {total.most:g}, expected {total.mean:g}"
         for outcome, total in zip(outcomes, totals, strict=True)
     )
     return Picture(
@@ -122,7 +122,7 @@ def _is_same(left: CostDistribution, right: CostDistribution) -> bool:
 
 def _row(outcome: Outcome, total: CostDistribution) -> list[Cell]:
     values = (
-        *(outcome.expected_cost, outcome.risk_cost),
+        *(outcome.expected_cost, outcome.value),
         *(total.least, total.quantile(0.05), total.quantile(0.5), total.quantile(0.95), total.most),
     )
-    return [Cell(agent_text(outcome.agent), agent_order(outcome.agent)[0]), *(number(value, 4) for value in values)]
+    return [Cell(outcome.agent, agent_order(outcome.agent)[0]), *(number(value, 4) for value in values)]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from statehtn.experiments.report.cases import Case, agent_text, by_question
+from statehtn.experiments.report.cases import Case, by_question
 from statehtn.experiments.report.plots import Look, Point, scatter
 from statehtn.experiments.report.tables import figure
 
@@ -80,7 +80,7 @@ def _duel(
     for left, right in pairs:
         x, y = (max(measure.of(c) or 0.0, measure.least) if c.is_answered else None for c in (left, right))
         if x is not None or y is not None:
-            tip = f"{left.problem}, {agent_text(left.agent)}: {_value(x)} against {_value(y)} {measure.unit}"
+            tip = f"{left.problem}, {left.agent}: {_value(x)} against {_value(y)} {measure.unit}"
             points.setdefault(left.domain, []).append(Point(x, y, tip))
     if not points:
         return None

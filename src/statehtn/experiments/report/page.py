@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from statehtn.errors import UsageError
-from statehtn.experiments.report.cases import Case, agent_order, agent_text, cases_of, contradictions, order
+from statehtn.experiments.report.cases import Case, agent_order, cases_of, contradictions, order
 from statehtn.experiments.report.costs import cost_pictures
 from statehtn.experiments.report.duels import MOST_DUELS, duels
 from statehtn.experiments.report.paper_tables import compare_with_paper
@@ -127,7 +127,7 @@ def _facts(outcomes: Sequence[Outcome], cases: Sequence[Case], settings: Sequenc
     return [
         ("runs", f"{len(outcomes)}: " + ", ".join(f"{count} {status}" for status, count in statuses.most_common())),
         ("problems", f"{problems} in {domains} domain{'s' if domains != 1 else ''}"),
-        ("agents", ", ".join(map(agent_text, agents))),
+        ("agents", ", ".join(agents)),
         ("settings", ", ".join(settings)),
         ("limits", "; ".join(_limits_text(*each) for each in limits)),
         ("machine", _listed(outcome.machine for outcome in outcomes)),

@@ -17,6 +17,7 @@ from statehtn.experiments.report.cases import Case, best_of, by_question
 from statehtn.experiments.report.results import Agent, Outcome
 from statehtn.experiments.report.tables import NOTHING, Cell, Column, Table, seconds, typeset
 from statehtn.model.status import Status
+from statehtn.risk import objective
 
 FOLDER = Path(__file__).parent / "paper"
 ABBREVIATIONS = {"seeking": "RS", "averse": "RA", "neutral": "RN"}
@@ -152,7 +153,7 @@ def _comparison(
 
 
 def _agent(printed: PrintedRow) -> Agent:
-    return printed["attitude"], float(printed["alpha"]) if printed["alpha"] else None
+    return str(objective(f"{printed['attitude']} {printed['alpha']}".strip()))
 
 
 def _attitude(printed: PrintedRow) -> str:

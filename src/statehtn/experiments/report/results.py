@@ -14,8 +14,8 @@ from statehtn.experiments.records import COLUMNS, KEY_COLUMNS, Row
 from statehtn.model.cost.blocks import CostDistribution
 
 Key = tuple[str, ...]
-Agent = tuple[str, float | None]
-"""An agent as the table has it: its attitude to risk, and its alpha; None for neutral."""
+Agent = str
+"""An agent by its objective and the budgets that it keeps, in text: `averse 0.9`, `neutral keep 25.0 0.95`."""
 PHASES = ("parse_seconds", "ground_seconds", "search_seconds")
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
@@ -27,11 +27,12 @@ class Outcome:
     Args:
         domain: the name that the results have for it.
         problem: likewise.
-        agent: attitude and alpha.
+        agent: who plans: the objective, and the budgets to keep.
         settings: solver and heuristic, such as `state auto`.
         status: as in the table of results.
-        risk_cost: the certain cost that the agent finds exactly as bad as the plan.
-        lower_bound: no plan has a lower risk cost.
+        value: what the plan is worth by the objective; for neutral, averse and seeking agents the certain cost that
+            they find exactly as bad.
+        lower_bound: no plan has a lower value.
         expected_cost: of the plan.
         log10_expected_utility: with the paper's sign.
         length: of the plan, in actions.
@@ -50,7 +51,7 @@ class Outcome:
     agent: Agent
     settings: str
     status: str
-    risk_cost: float | None
+    value: float | None
     lower_bound: float | None
     expected_cost: float | None
     log10_expected_utility: float | None
@@ -189,10 +190,10 @@ def _outcome(row: Row, extra: _Extra, place: str) -> Outcome:
     return Outcome(
         domain=printable(row["domain"]),
         problem=printable(row["problem"]),
-        agent=(printable(row["attitude"]), number("alpha")),
+        agent=printable(" keep ".join(filter(None, (row["objective"], row["keep"])))),
         settings=printable(f"{row['solver']} {row['heuristic']}".strip()),
         status=printable(row["status"]),
-        risk_cost=number("risk_cost"),
+        value=number("value"),
         lower_bound=number("lower_bound"),
         expected_cost=number("expected_cost"),
         log10_expected_utility=number("log10_expected_utility"),

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 
-from statehtn.experiments.report.cases import Case, agent_order, agent_text
+from statehtn.experiments.report.cases import Case, agent_order
 from statehtn.experiments.summary import LIMITS, NO_PLAN, SOLVED
 from statehtn.model.status import Status
 
@@ -147,16 +147,16 @@ def all_cases(cases: Sequence[Case]) -> Table:
     """Return every problem with every agent and settings."""
     columns = [
         *(Column(label, is_text=True) for label in ("problem", "domain", "agent", "settings", "status")),
-        *(Column(label) for label in ("certainty equivalent", "lower bound", "expected cost", "length")),
+        *(Column(label) for label in ("value", "lower bound", "expected cost", "length")),
         *(Column(label) for label in ("expanded", "seconds", "MB")),
     ]
     rows = [
         [
-            Cell(case.problem, also=f"{agent_text(case.agent)}, {case.settings}"),
+            Cell(case.problem, also=f"{case.agent}, {case.settings}"),
             Cell(case.domain),
-            Cell(agent_text(case.agent), agent_order(case.agent)[0]),
+            Cell(case.agent, agent_order(case.agent)[0]),
             *(Cell(text) for text in (case.settings, case.status)),
-            number(case.best.risk_cost),
+            number(case.best.value),
             number(_largest(outcome.lower_bound for outcome in case.outcomes)),
             number(case.best.expected_cost),
             _count(case.best.length),

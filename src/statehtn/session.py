@@ -1,0 +1,119 @@
+"""A problem for any number of runs, and the search that does what is asked of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+from statehtn.core.grounding import Grounding, ground
+from statehtn.core.label_search import search_labels
+from statehtn.core.plan_based import search_networks
+from statehtn.core.pricing import PricedProblem, price
+from statehtn.core.progress import Progress, TopProgress
+from statehtn.core.search import improving_plans
+from statehtn.core.search_run import SearchOutcome
+from statehtn.core.top_plans import find_top_plans
+from statehtn.effort import Meter
+from statehtn.limits import Limits
+from statehtn.log import log
+from statehtn.model.problem import Problem
+from statehtn.model.status import Status
+from statehtn.risk import AdditiveObjective, Neutral
+from statehtn.settings import Settings, TopSettings
+
+ProgressCallback = Callable[[Progress], None]
+TopProgressCallback = Callable[[TopProgress], None]
+
+
+class Session:
+    """A problem for any number of runs: read once, grounded once, and priced once for each objective that has prices.
+
+    A phase that a limit or an interruption ends is begun anew by the next run.
+
+    Args:
+        source: the problem, or a function that reads it within limits.
+    """
+
+    def __init__(self, source: Problem | Callable[[Limits], Problem]) -> None:
+        self.source = source
+        self.problem = source if isinstance(source, Problem) else None
+        self._grounding: Grounding | None = None
+        self._priced: dict[AdditiveObjective, PricedProblem] = {}
+
+    def read(self, limits: Limits, meter: Meter) -> Problem:
+        """Return the problem."""
+        if not isinstance(self.source, Problem) and self.problem is None:
+            with meter.timed("parse"):
+                self.problem = self.source(limits)
+            log.info("reading: %.3f s, %s", meter.statistics.parse_seconds, self.problem)
+        assert self.problem is not None
+        return self.problem
+
+    def ground(self, limits: Limits, meter: Meter) -> Grounding:
+        """Return the ground problem, and note how large it is."""
+        problem = self.read(limits, meter)
+        with meter.timed("ground"):
+            if self._grounding is None:
+                self._grounding = ground(problem, limits)
+        found = self._grounding
+        sizes = {"facts": found.fact_count, "actions": found.action_count}
+        meter.note(**sizes, tasks=found.task_count, methods=found.method_count)
+        log.info("grounding: %.3f s, %s", meter.statistics.ground_seconds, meter.statistics.sizes)
+        return found
+
+    def price(self, objective: AdditiveObjective, limits: Limits, meter: Meter) -> PricedProblem:
+        """Return the ground problem with the prices of its actions."""
+        grounding = self.ground(limits, meter)
+        with meter.timed("search"):
+            if objective not in self._priced:
+                self._priced[objective] = price(grounding, objective, limits)
+        return self._priced[objective]
+
+    def search(
+        self, settings: Settings, limits: Limits, meter: Meter, progress: ProgressCallback | None
+    ) -> Iterator[SearchOutcome]:
+        """Read, ground and price the problem, and return the search for a plan, which begins with its first outcome."""
+        if settings.search == "greedy" and settings.needs_labels:
+            return map(_by_the_mean, self.search(replace(settings, objective=Neutral()), limits, meter, progress))
+        if settings.needs_labels:
+            return self._search_labels(settings, limits, meter, progress, switches=settings.label_switches)
+        problem = self.price(settings.prices, limits, meter)
+        if settings.solver == "plan":
+            heuristic, branch = settings.heuristic, settings.branch
+            return search_networks(problem, heuristic=heuristic, branch=branch, limits=limits, progress=progress)
+        how = settings.heuristic, settings.search, settings.weight
+        return improving_plans(problem, *how, limits, progress, settings.switches)
+
+    def search_top(
+        self, settings: TopSettings, limits: Limits, meter: Meter, progress: TopProgressCallback | None
+    ) -> Iterator[SearchOutcome]:
+        """Read, ground and price the problem, and return the search for the best plans."""
+        k, distinct, heuristic = settings.k, settings.distinct, settings.heuristic
+        if settings.needs_labels:
+            return self._search_labels(settings, limits, meter, progress, k=k, distinct=distinct)
+        problem = self.price(settings.prices, limits, meter)
+        found = find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
+        return iter((found,))
+
+    def _search_labels(
+        self, settings: Settings | TopSettings, limits: Limits, meter: Meter, progress: Any, **options: Any
+    ) -> Iterator[SearchOutcome]:
+        grounding = self.ground(limits, meter)
+        with meter.timed("search"):
+            return search_labels(
+                grounding,
+                settings.objective,
+                keep=settings.keep,
+                heuristic=settings.heuristic,
+                precision=settings.precision,
+                limits=limits,
+                progress=progress,
+                **options,
+            )
+
+
+def _by_the_mean(outcome: SearchOutcome) -> SearchOutcome:
+    """Return what a search by the mean says of another objective: there is a plan."""
+    status = Status.SOLVED if outcome.status is Status.OPTIMAL else outcome.status
+    return replace(outcome, status=status, lower_bound=None)
