@@ -10,7 +10,7 @@ from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS, PORTFOLIO
 from statehtn.core.searches import SEARCHES, TAKES
 from statehtn.core.switches import LabelSwitches, SearchSwitches
 from statehtn.expected import one_of
-from statehtn.risk import AdditiveObjective, Keep, Neutral, Objective
+from statehtn.risk import AdditiveObjective, EntropicValueAtRisk, Keep, Neutral, Objective
 
 SOLVERS: Mapping[str, str] = MappingProxyType(
     {
@@ -67,10 +67,10 @@ def mismatch(
         return f"the solver '{solver}' has no search but 'astar', found '{search}'"
     if without and solver != "state":
         return f"the solver '{solver}' has none of the refinements of 'state', found '{'+'.join(without)}'"
-    by_labels = not prices_add_up(wanted, keep)
-    if by_labels and (reason := _needs_prices(solver, search, wanted, keep)):
+    by_labels = search != "greedy" and not _is_found_by_prices(wanted, keep)
+    if not prices_add_up(wanted, keep) and (reason := _needs_prices(solver, search, wanted, keep)):
         return reason
-    has = LABEL_SWITCHES if by_labels and search != "greedy" else PRICE_SWITCHES
+    has = LABEL_SWITCHES if by_labels else PRICE_SWITCHES
     if lacking := [name for name in without if name in SWITCHES and name not in has]:
         return f"the search by '{wanted}' has no refinement '{lacking[0]}'; it has {', '.join(has)}"
     takes = heuristics_for(solver, search, wanted, keep)
@@ -88,11 +88,16 @@ def mismatch(
     return f"{reason}, or '{heuristic}' with greedy search"
 
 
+def _is_found_by_prices(wanted: Objective, keep: Sequence[Keep]) -> bool:
+    """Tell whether searches by prices find the best plan: one, or for the entropic value at risk several of them."""
+    return prices_add_up(wanted, keep) or (not keep and isinstance(wanted, EntropicValueAtRisk))
+
+
 def heuristics_for(
     solver: str, search: str, wanted: Objective = Neutral(), keep: Sequence[Keep] = ()
 ) -> tuple[str, ...]:
     """Return the heuristics that a search of a solver takes for an objective, first its own."""
-    if search == "greedy" or prices_add_up(wanted, keep):
+    if search == "greedy" or _is_found_by_prices(wanted, keep):
         return TAKES[solver, search]
     return TAKES["state", "top"]  # it finds one plan as it finds the k best
 
@@ -103,7 +108,7 @@ def _needs_prices(solver: str, search: str, wanted: Objective, keep: Sequence[Ke
     Greedy search goes by the mean, and values what it finds; the first plan that it finds may keep no budget.
     """
     what = "a budget to keep (--keep)" if keep else f"the objective '{wanted}'"
-    if solver == "plan":
+    if solver == "plan" and not _is_found_by_prices(wanted, keep):
         return f"the solver 'plan' adds up prices of actions, which {what} does not have; take the solver 'state'"
     if search == "weighted":
         return f"the weighted search adds up prices of actions, which {what} does not have; take astar or anytime"

@@ -12,6 +12,7 @@ from statehtn.errors import InternalError
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
+from statehtn.model.cost.scenario_cost import sum_of
 from statehtn.model.cost.unknown import refuse_unknown
 from statehtn.model.plan import MOST_SHOWN, Plan, Step
 from statehtn.model.problem import Problem
@@ -208,7 +209,7 @@ def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecke
     assert plan.costs is not None
     steps = _priced_steps(plan, plan.costs, objective)
     adds_up = isinstance(objective, AdditiveObjective)
-    law = None if adds_up and not keep else plan.cost_distribution()
+    law = None if adds_up and not keep else sum_of(plan.costs)
     prices = (step.risk_cost or 0.0 for step in steps)
     value = math.fsum(prices) if law is None or adds_up else objective.value(law)
     budgets = tuple(kept(one, None if law is None else one.attained(law)) for one in keep)
@@ -217,14 +218,15 @@ def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecke
 
 
 def value_of(plan: Plan, objective: Objective) -> float:
-    """Return what the law of a plan's total cost is worth; a sum of prices where they add up, to save the convolution.
+    """Return what the total cost of a plan that knows its costs is worth: a sum of prices where they add up.
 
     Raises:
         InputError: it is worth nothing finite, or that cannot be computed.
     """
-    if isinstance(objective, AdditiveObjective) and plan.costs is not None:
+    assert plan.costs is not None
+    if isinstance(objective, AdditiveObjective):
         return plan_risk_cost(plan.costs, objective)
-    return objective.value(plan.cost_distribution())
+    return objective.value(sum_of(plan.costs))
 
 
 def _priced_steps(plan: Plan, costs: Sequence[CostLaw], objective: Objective) -> PricedSteps:

@@ -13,6 +13,7 @@ from statehtn.core.pricing import PricedProblem, price
 from statehtn.core.progress import Progress, TopProgress
 from statehtn.core.search import improving_plans
 from statehtn.core.search_run import SearchOutcome
+from statehtn.core.searches import TAKES
 from statehtn.core.top_plans import find_top_plans
 from statehtn.effort import Meter
 from statehtn.limits import Limits
@@ -100,12 +101,13 @@ class Session:
         self, settings: Settings | TopSettings, limits: Limits, meter: Meter, progress: Any, **options: Any
     ) -> Iterator[SearchOutcome]:
         grounding = self.ground(limits, meter)
+        takes = TAKES["state", "top"]
         with meter.timed("search"):
             return search_labels(
                 grounding,
                 settings.objective,
                 keep=settings.keep,
-                heuristic=settings.heuristic,
+                heuristic=settings.heuristic if settings.heuristic in takes else takes[0],
                 precision=settings.precision,
                 limits=limits,
                 progress=progress,

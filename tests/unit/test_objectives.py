@@ -1,0 +1,185 @@
+"""What plans are compared by, from every door of the planner: mistakes in it, and what comes out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import statehtn
+from statehtn import UsageError
+from statehtn.cli import main
+from statehtn.risk import MeanVariance
+from tests.test_minimal import DOMAIN, PROBLEM
+
+AV = ("domains/av/domain.hddl", "domains/av/p1.hddl")
+Capture = pytest.CaptureFixture[str]
+BEST = 19.4
+"""The least cost that is certain, in the first vehicle problem."""
+
+
+@pytest.fixture(scope="module")
+def vehicle() -> statehtn.Problem:
+    return statehtn.read_hddl(*AV)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--objective", "cvr 0.95"], "unknown objective 'cvr' (did you mean 'cvar'?)"),
+        (["--objective", "cvar 1"], "the level must be above 0 and below 1, such as 0.95, found 1"),
+        (["--objective", "quantile 95"], "the level must be above 0 and below 1"),
+        (["--objective", "evar -0.5"], "the level must be above 0 and below 1"),
+        (["--objective", "cvar"], "it takes 1 number, found 0; write cvar LEVEL"),
+        (["--objective", "cvar high"], "'high' is no number"),
+        (["--objective", "mean-variance -1"], "must be a finite number of at least 0, found -1"),
+        (["--objective", "mean-deviation -1"], "must be a finite number of at least 0, found -1"),
+        (["--objective", "exponentials linear=1 0.5:-1"], "found -1"),
+        (["--objective", "piecewise 0:0 10:1"], "rise"),
+        (["--objective", "piecewise 10:0 0:-1"], "10"),
+        (["--objective", "averse 0.9", "--attitude", "averse"], "leave out --attitude"),
+        (["--objective", "averse 0.9", "--alpha", "0.9"], "leave out --alpha"),
+        (["--keep", "25 1.5"], "must be above 0 and at most 1, such as 0.95, found 1.5"),
+        (["--keep", "25 0"], "must be above 0 and at most 1"),
+        (["--keep", "-1 0.5"], "at least 0, found -1"),
+        (["--keep", "25"], "written BUDGET PROBABILITY, such as '25 0.95'; found '25'"),
+        (["--keep", "soon likely"], "found 'soon likely'"),
+        (["--precision", "0"], "the precision must be between 0 and 1, such as 1e-6, found 0"),
+        (["--objective", "cvar 0.95", "--search", "weighted"], "take astar or anytime"),
+        (["--keep", "25 0.9", "--search", "weighted"], "take astar or anytime"),
+        (["--keep", "25 0.9", "--search", "greedy"], "greedy search looks at no budgets"),
+        (["--objective", "cvar 0.95", "--heuristic", "ff"], "'ff' may estimate more than is true"),
+        (["--objective", "cvar 0.95", "--without", "endings"], "has no refinement 'endings'"),
+    ],
+)
+def test_a_mistake_is_one_line_and_an_error_of_usage(options: list[str], words: str, capsys: Capture) -> None:
+    assert main(["plan", *AV, *options]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("error: ")
+    assert captured.err.count("\n") == 1
+    assert words in captured.err
+
+
+@pytest.mark.parametrize("command", [["top", "2", *AV], ["compare-attitudes", *AV]])
+def test_other_commands_say_the_same(command: list[str], capsys: Capture) -> None:
+    assert main([*command, "--objective", "cvr 0.95"]) == 2
+    assert "did you mean 'cvar'?" in capsys.readouterr().err
+    assert main([*command, "--keep", "25 1.5"]) == 2
+    assert "found 1.5" in capsys.readouterr().err
+
+
+def test_objectives_beside_attitudes_are_two_ways_to_say_one_thing(vehicle: statehtn.Problem, capsys: Capture) -> None:
+    with pytest.raises(UsageError, match="two ways to say one thing"):
+        statehtn.plan(vehicle, objective="neutral", attitude="averse")
+    with pytest.raises(UsageError, match="two ways to say one thing"):
+        statehtn.top_plans(vehicle, 2, objective="neutral", alpha=0.5)
+    with pytest.raises(UsageError, match="either objectives or attitudes"):
+        statehtn.compare_attitudes(vehicle, 0.9, objectives=["neutral"])
+    with pytest.raises(UsageError, match="no objectives to compare"):
+        statehtn.compare_attitudes(vehicle, objectives=[])
+    assert main(["compare-attitudes", *AV, "--objective", "neutral", "--alpha", "1"]) == 2
+    assert "either objectives or attitudes" in capsys.readouterr().err
+
+
+def test_what_is_no_objective(vehicle: statehtn.Problem) -> None:
+    for wrong in (3, MeanVariance, ["cvar 0.95"]):
+        with pytest.raises(UsageError, match="an objective is its text form"):
+            statehtn.plan(vehicle, objective=wrong)  # type: ignore[arg-type]
+    with pytest.raises(UsageError, match="'keep' must be a list"):
+        statehtn.plan(vehicle, keep=25)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("attitude", "alpha"), [("neutral", None), ("averse", 0.9), ("seeking", 0.25)])
+def test_short_forms_are_objectives(vehicle: statehtn.Problem, attitude: str, alpha: float | None) -> None:
+    text = attitude if alpha is None else f"{attitude} {alpha}"
+    short = statehtn.plan(vehicle, attitude=attitude, alpha=alpha)  # type: ignore[arg-type]
+    long = statehtn.plan(vehicle, objective=text)
+    assert long.objective == short.objective
+    assert str(short.objective) == text
+    assert long.plan == short.plan
+    assert (short.value, short.value_unit, short.attitude, short.alpha) == (short.risk_cost, "cost", attitude, alpha)
+    assert short.lower_bound is not None
+    assert short.value is not None
+    assert short.gap == short.value - short.lower_bound
+
+
+def test_mean_variance_has_prices(vehicle: statehtn.Problem) -> None:
+    for solver in ("state", "plan"):
+        result = statehtn.plan(vehicle, objective=MeanVariance(0.5), solver=solver)  # type: ignore[arg-type]
+        assert result.status is statehtn.Status.OPTIMAL
+        assert result.value == result.risk_cost == pytest.approx(BEST)
+        assert sum(step.risk_cost or 0 for step in result.steps) == pytest.approx(BEST)
+        assert (result.attitude, result.alpha, result.expected_utility, result.log10_expected_utility) == (None,) * 4
+    assert result.problem_class == "PP10211"
+
+
+def test_json_says_the_objective(capsys: Capture) -> None:
+    assert main(["plan", *AV, "--objective", "mean-variance 0.5", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["objective"], found["value_unit"], found["attitude"]) == ("mean-variance 0.5", "cost", None)
+    assert found["value"] == found["risk_cost"] == pytest.approx(BEST)
+    assert found["gap"] == pytest.approx(found["value"] - found["lower_bound"])
+    assert found["keep"] == []
+
+
+def test_greedy_search_goes_by_the_mean_and_reports_the_value(vehicle: statehtn.Problem) -> None:
+    result = statehtn.plan(vehicle, objective="cvar 0.95", search="greedy")
+    assert result.plan is not None
+    law = result.plan.cost_distribution()
+    assert result.status is statehtn.Status.SOLVED
+    assert (result.lower_bound, result.gap) == (None, None)
+    assert result.value == result.risk_cost == pytest.approx(law.cvar(0.95))
+    assert all(step.risk_cost is None for step in result.steps)
+    late = statehtn.plan(vehicle, objective="deadline 15", search="greedy")
+    assert late.value == pytest.approx(law.exceedance(15))
+    assert (late.value_unit, late.risk_cost) == ("probability", None)
+    assert "(probability)" in str(late)
+
+
+def test_objectives_are_compared_in_their_order(vehicle: statehtn.Problem) -> None:
+    comparison = statehtn.compare_attitudes(vehicle, objectives=["mean-variance 0.5", "neutral", "neutral"])
+    assert comparison.agents == ("mean-variance 0.5", "neutral")
+    ((first, _), (_, last)) = comparison.values
+    assert first == pytest.approx(BEST)
+    assert last == pytest.approx(18.35)
+    assert comparison.values == comparison.risk_costs
+    found = comparison.to_dict()
+    assert found["agents"][0] == {"attitude": None, "alpha": None, "objective": "mean-variance 0.5"}
+    assert "by mean-variance 0.5" in str(comparison)
+
+
+def test_a_suite_with_objectives(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "domain.hddl").write_text(DOMAIN)
+    (tmp_path / "p1.hddl").write_text(PROBLEM)
+    suite = tmp_path / "my.toml"
+    runs = '[[runs]]\ndomain = "domain.hddl"\nproblems = "p1.hddl"\nname = "errands"\n'
+    suite.write_text(f'objectives = ["neutral", "mean-variance 0.5"]\nattitudes = "averse"\nalphas = 0.9\n{runs}')
+    table = tmp_path / "r.csv"
+    assert main(["compare", "--suite", str(suite), "--output", str(table), "--quiet"]) == 0
+    head, *rows = (line.split(",") for line in table.read_text().splitlines())
+    named = [dict(zip(head, row, strict=True)) for row in rows]
+    objectives = [row["objective"] for row in named]
+    assert objectives == ["averse 0.9", "neutral", "mean-variance 0.5"]
+    assert [(row["attitude"], row["alpha"]) for row in named] == [("averse", "0.9"), ("neutral", ""), ("", "")]
+    assert all(row["value"] == row["risk_cost"] != "" for row in named)
+    for wrong, words in (
+        ('objectives = "cvr"', "did you mean 'cvar'?"),
+        ('keep = "25 2"', "('keep')"),
+        ("objectives = 7", "'objectives': expected text"),
+        ("objective = 7", "unknown key 'objective'"),
+    ):
+        suite.write_text(f"{wrong}\n{runs}")
+        assert main(["compare", "--suite", str(suite)]) == 30
+        assert words in capsys.readouterr().err
+
+
+def test_a_run_of_a_suite_that_no_search_can_do_is_left_out(capsys: Capture) -> None:
+    options = ["--suite", "paper", "--domain", "av", "--problem", "p1", "--objective", "neutral", "deadline 25"]
+    assert main(["compare", *options, "--solver", "plan", "--quiet"]) == 0
+    captured = capsys.readouterr()
+    assert "left out: plan" in captured.err
+    assert "the objective 'deadline 25' does not have" in captured.err
+    assert captured.out.count("av,p1,neutral") == 1
+    assert "deadline" not in captured.out
