@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 from statehtn.core.grounding import Grounding, ground
 from statehtn.core.label_search import search_labels
-from statehtn.core.plan_based import search_networks, search_networks_by_labels
+from statehtn.core.plan_based import search_networks
 from statehtn.core.pricing import PricedProblem, price
 from statehtn.core.progress import Progress, TopProgress
 from statehtn.core.search import improving_plans
@@ -78,20 +77,14 @@ class Session:
         """Read, ground and price the problem, and return the search for a plan, which begins with its first outcome."""
         if settings.search == "greedy" and settings.needs_labels:
             return map(_by_the_mean, self.search(replace(settings, objective=Neutral()), limits, meter, progress))
-        if settings.needs_labels and settings.solver == "plan":
-            how = partial(search_networks_by_labels, branch=settings.branch)
-            return self._by_labels(how, settings, limits, meter, progress)
         if settings.needs_labels:
-            takes = TAKES["state", "top"]
-            heuristic = settings.heuristic if settings.heuristic in takes else takes[0]
-            how = partial(search_labels, heuristic=heuristic, switches=settings.label_switches)
-            return self._by_labels(how, settings, limits, meter, progress)
+            return self._search_labels(settings, limits, meter, progress, switches=settings.label_switches)
         problem = self.price(settings.prices, limits, meter)
         if settings.solver == "plan":
             heuristic, branch = settings.heuristic, settings.branch
             return search_networks(problem, heuristic=heuristic, branch=branch, limits=limits, progress=progress)
-        by = settings.heuristic, settings.search, settings.weight
-        return improving_plans(problem, *by, limits, progress, settings.switches)
+        how = settings.heuristic, settings.search, settings.weight
+        return improving_plans(problem, *how, limits, progress, settings.switches)
 
     def search_top(
         self, settings: TopSettings, limits: Limits, meter: Meter, progress: TopProgressCallback | None
@@ -99,24 +92,27 @@ class Session:
         """Read, ground and price the problem, and return the search for the best plans."""
         k, distinct, heuristic = settings.k, settings.distinct, settings.heuristic
         if settings.needs_labels:
-            how = partial(search_labels, k=k, distinct=distinct, heuristic=heuristic)
-            return self._by_labels(how, settings, limits, meter, progress)
+            return self._search_labels(settings, limits, meter, progress, k=k, distinct=distinct)
         problem = self.price(settings.prices, limits, meter)
         found = find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
         return iter((found,))
 
-    def _by_labels(
-        self,
-        search: Callable[..., Iterator[SearchOutcome]],
-        settings: Settings | TopSettings,
-        limits: Limits,
-        meter: Meter,
-        progress: Any,
+    def _search_labels(
+        self, settings: Settings | TopSettings, limits: Limits, meter: Meter, progress: Any, **options: Any
     ) -> Iterator[SearchOutcome]:
         grounding = self.ground(limits, meter)
-        what = {"keep": settings.keep, "precision": settings.precision}
+        takes = TAKES["state", "top"]
         with meter.timed("search"):
-            return search(grounding, settings.objective, **what, limits=limits, progress=progress)
+            return search_labels(
+                grounding,
+                settings.objective,
+                keep=settings.keep,
+                heuristic=settings.heuristic if settings.heuristic in takes else takes[0],
+                precision=settings.precision,
+                limits=limits,
+                progress=progress,
+                **options,
+            )
 
 
 def _by_the_mean(outcome: SearchOutcome) -> SearchOutcome:

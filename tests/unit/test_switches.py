@@ -8,9 +8,10 @@ import pytest
 
 import statehtn._relax as _relax
 from statehtn.compatible import SOLVERS
+from statehtn.core.finite_labels import SWITCHES
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.searches import SEARCHES, TAKES
-from statehtn.core.switches import ProgressionSwitches, SearchSwitches, TopSwitches, set_switches
+from statehtn.core.switches import LabelSwitches, ProgressionSwitches, SearchSwitches, TopSwitches, set_switches
 
 NO_SWITCHES = {"in_sequence", "when_due", "explores"}
 """What greedy search is asked for; it does change what is found."""
@@ -36,6 +37,11 @@ def test_switches_are_the_fields_of_the_core(kind: type[ProgressionSwitches], op
     off = options()
     set_switches(off, kind(**dict.fromkeys(everything_on, False)))
     assert not any(switches_of(off).values())
+
+
+def test_switches_of_labels_of_several_sums() -> None:
+    assert switches_of(_relax.FiniteOptions()) == dict.fromkeys(SWITCHES, True)
+    assert set(SWITCHES) <= {field.name for field in fields(LabelSwitches)}
 
 
 def test_a_search_takes_heuristics_that_there_are() -> None:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
@@ -15,7 +15,7 @@ from statehtn.core.scale import Scale
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import Limits, watched
 from statehtn.model import CostLaw
-from statehtn.risk import AdditiveObjective, Exponential, Neutral
+from statehtn.risk import Exponential, Neutral
 
 ROUNDING = 2.0**-40
 """By how much of itself the risk cost of an uncertain cost is off at most, computed in floating point.
@@ -28,6 +28,18 @@ are negative. Where they are positive, let p be the least probability: `E[x e^x]
 for K is at least the share of W of terms with `x <= ln 1/p`, divided by that, and at least `x - ln 1/p` for others.
 Since `ln 1/p < 709` in floating point, 2^-40 is more than all of it; the worst of 60 000 random laws was off by 2^-44.
 """
+
+
+class Pricing(Protocol):
+    """What puts a price on an uncertain cost, such that prices of independent costs add up."""
+
+    def risk_cost(self, law: CostLaw) -> float:
+        """Return the price.
+
+        Raises:
+            InputError: it is infinite, or cannot be computed.
+        """
+        ...
 
 
 class RiskCost(NamedTuple):
@@ -103,7 +115,7 @@ class PricedProblem:
         return PricedTrace(trace, actions, parts, cost)
 
 
-def price(grounding: Grounding, objective: AdditiveObjective, limits: Limits = Limits()) -> PricedProblem:
+def price(grounding: Grounding, objective: Pricing, limits: Limits = Limits()) -> PricedProblem:
     """Price actions by their risk cost (line 6 of the paper's Algorithm 5, in the additive form of its equation 10).
 
     Parts of a cost are independent, so that their risk costs add up, too: each has a price of its own.
@@ -137,7 +149,7 @@ def price(grounding: Grounding, objective: AdditiveObjective, limits: Limits = L
     return PricedProblem(grounding, actions, parts)
 
 
-def risk_cost(law: CostLaw, objective: AdditiveObjective) -> RiskCost:
+def risk_cost(law: CostLaw, objective: Pricing) -> RiskCost:
     """Return the price of a cost to an agent.
 
     Raises:

@@ -44,6 +44,18 @@ class TopSwitches(BoundSwitches):
 class LabelSwitches(TopSwitches):
     """Refinements of the search by an objective whose label is not one price; each family has its own."""
 
+    # Of labels that are several sums.
+    one_price_first: bool = True
+    """Search with tangents of the objective for prices first; they often prove a plan without any label search."""
+    bound_mixes: bool = True
+    """Bound labels at mixes of the prices, too."""
+    compare_boxes: bool = True
+    """Compare two labels by all completions that there may be, not sum by sum."""
+    compare_envelopes: bool = True
+    """Leave out a label for several others, of which one is as good with each completion."""
+    use_cutoff: bool = True
+    """Leave completions out of comparisons that lead to no better plan than the best known."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchSwitches(BoundSwitches):

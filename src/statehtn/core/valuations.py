@@ -6,13 +6,15 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from statehtn.core.exponential_labels import ExponentialLabels
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels
+from statehtn.core.mean_deviation_labels import MeanDeviationLabels
 from statehtn.core.price_labels import PriceLabels
 from statehtn.core.switches import LabelSwitches
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
-from statehtn.risk import Exponential, Neutral, Utility
+from statehtn.risk import Exponential, Exponentials, MeanDeviation, Neutral, OneSwitch, Utility
 from statehtn.risk.keep import Keep
 from statehtn.risk.objective import Objective
 
@@ -23,7 +25,15 @@ def _prices(grounding: Grounding, objective: Utility, _: LabelSwitches, limits: 
     return PriceLabels(grounding, objective, limits)
 
 
-VALUATIONS: Mapping[type, Constructor] = MappingProxyType({Neutral: _prices, Exponential: _prices})
+VALUATIONS: Mapping[type, Constructor] = MappingProxyType(
+    {
+        Neutral: _prices,
+        Exponential: _prices,
+        OneSwitch: ExponentialLabels,
+        Exponentials: ExponentialLabels,
+        MeanDeviation: MeanDeviationLabels,
+    }
+)
 """By the class of an objective: how its labels are made."""
 
 

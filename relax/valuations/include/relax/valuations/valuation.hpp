@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
@@ -35,8 +34,6 @@ public:
 
     // The vectors of prices at which it is to be told what is still to come. They stay.
     virtual std::span<const PricedProblem* const> prices() const = 0;
-    // By ActionId: those that cost nothing at any of them, whatever the state is.
-    std::vector<bool> free_actions() const;
     // Before all that follows: the networks that the search will make. Throws Stopped.
     virtual void begin(const TaskNetworks& /*networks*/, Limits& /*limits*/) {}
 

@@ -1,0 +1,128 @@
+"""Labels of several sums: what they have in common, and the searches with one price that come before theirs."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Iterator, Sequence
+
+import statehtn._relax as _relax
+from statehtn.core.finite_prices import FinitePrices, Mix
+from statehtn.core.grounding import Grounding
+from statehtn.core.labels import Labels, Support
+from statehtn.core.pricing import PricedProblem
+from statehtn.core.searches import SEARCHES, core_options
+from statehtn.core.staged_run import StagedRun
+from statehtn.core.switches import LabelSwitches, SearchSwitches
+from statehtn.limits import Limits
+from statehtn.model.cost.scenario_cost import sum_of
+from statehtn.model.status import Status
+from statehtn.risk.objective import Objective
+
+MOST_SEARCHES = 8
+"""With one price, before the label search."""
+MOST_MIXES = 4
+"""At which nodes are bounded; further ones take longer than they save."""
+
+SWITCHES = ("bound_mixes", "compare_boxes", "compare_envelopes", "use_cutoff")
+"""The fields of `LabelSwitches` that the core has under the same names."""
+
+
+class FiniteLabels(Labels):
+    """Labels of several sums of prices, whose objective rises in each of the sums.
+
+    The first searches have one price for each action, a mix of the others. Each finds a plan, and a bound of all plans.
+    They end with one that finds a plan again; what is left to prove then is for the label search.
+
+    Args:
+        grounding: the ground problem.
+        objective: what is minimised.
+        problems: the ground problem at each of the prices.
+        switches: refinements to leave out.
+        bounds_mixes: whether the core bounds nodes at mixes of the prices.
+    """
+
+    def __init__(
+        self,
+        grounding: Grounding,
+        objective: Objective,
+        problems: Sequence[PricedProblem],
+        switches: LabelSwitches,
+        bounds_mixes: bool,
+    ) -> None:
+        super().__init__(grounding, objective)
+        self._prices = FinitePrices(grounding, problems)
+        self._switches = switches
+        self._bounds_mixes = bounds_mixes
+        self._mixes: list[Mix] = []
+        self._least = [0] * len(problems)  # proven of each price, in units
+
+    @abstractmethod
+    def _core(self, prices: FinitePrices, mixes: Sequence[Mix], options: _relax.FiniteOptions) -> _relax.Valuation:
+        """Return the valuation in the core."""
+
+    @abstractmethod
+    def _next_weights(self, points: Sequence[Sequence[float]], values: Sequence[float]) -> list[float]:
+        """Return weights of the prices for the next search with one price, up to a factor.
+
+        Args:
+            points: the sums of the plans that were found so far.
+            values: theirs.
+        """
+
+    @property
+    def valuation(self) -> _relax.Valuation:
+        """The sums on their scales, and the latest mixes."""
+        options = _relax.FiniteOptions()
+        for name in SWITCHES:
+            setattr(options, name, getattr(self._switches, name))
+        return self._core(self._prices, self._mixes[:MOST_MIXES], options)
+
+    def refine(self, limits: Limits) -> bool:  # noqa: ARG002
+        """Take larger units for prices that do not fit into the present ones."""
+        if not self._prices.coarsen():
+            return False
+        self._mixes = [self._prices.mix(mix.weights) for mix in self._mixes]
+        self._least = [0] * len(self._least)
+        return True
+
+    def value(self, trace: _relax.SearchResult) -> float:
+        """Return the value of a plan that was found; the law of its cost is not needed."""
+        laws, part_laws = self.grounding.laws, self.grounding.part_laws
+        parts = (*(laws[one] for one in trace.actions), *(part_laws[one] for one in trace.due_parts))
+        return self.objective.value(sum_of(parts))
+
+    def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
+        """Yield what searches with one price for each action find, and what follows of every plan."""
+        points: list[list[float]] = []
+        values: list[float] = []
+        weights = [1.0, *([0.0] * (len(self._prices.problems) - 1))]
+        for _ in range(MOST_SEARCHES if self._switches.one_price_first else 0):
+            mix = self._prices.mix(weights)
+            run = StagedRun(mix.problem, limits.for_a_part(share))
+            options = core_options(SEARCHES["astar"][0], self.grounding, "auto", 1.0, SearchSwitches())
+            *_, outcome = run.outcomes([options])
+            found = outcome.plans.results
+            stopped = None if outcome.stopped is Status.TIME_LIMIT else outcome.stopped
+            bound = None if outcome.lower_bound is None else self._bound(mix, outcome.lower_bound)
+            yield Support(found, bound, outcome.effort, stopped, outcome.status is Status.UNSOLVABLE)
+            if not found or (point := self._prices.point(found[0])) in points:
+                break
+            points.append(point)
+            values.append(self.value(found[0]))
+            weights = self._next_weights(points, values)
+
+    def _bound(self, mix: Mix, cost: float) -> float:
+        """Take up that no plan costs less than this at a mix; return a lower bound of the value of every plan."""
+        positive = [price for price, weight in enumerate(mix.weights) if weight > 0]
+        mixes: list[Mix] = []
+        units: list[int] = []
+        if len(positive) == 1:
+            exponent = self._prices.exponents[positive[0]]
+            self._least[positive[0]] = math.floor(math.ldexp(cost / mix.weights[positive[0]], exponent))
+        elif self._bounds_mixes:
+            mixes.append(mix)
+            units.append(math.floor(math.ldexp(cost, mix.exponent)))
+            self._mixes.insert(0, mix)
+        core = self._core(self._prices, mixes, _relax.FiniteOptions())
+        return _relax.value_of(core.bound(core.start(), [*self._least, *units]))
