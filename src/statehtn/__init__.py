@@ -37,7 +37,7 @@ if TYPE_CHECKING:
         relax_to_pddl,
         to_unified_planning,
     )
-    from statehtn.planner import Planner, compare_attitudes, improving, plan, top_plans
+    from statehtn.planner import Planner, attitude_map, compare_attitudes, improving, plan, top_plans
     from statehtn.result import Result
     from statehtn.risk import (
         OBJECTIVES,
@@ -63,6 +63,7 @@ if TYPE_CHECKING:
         utility_for,
     )
     from statehtn.risk.elicitation import Elicited, alpha_of
+    from statehtn.sweeps.attitude_map import AttitudeMap
     from statehtn.tabulate import tabulate_costs
     from statehtn.top_result import RankedPlan, TopPlans
     from statehtn.validation import Validation
@@ -75,6 +76,7 @@ __all__ = [
     "SOLVERS",
     "Attitude",
     "AttitudeComparison",
+    "AttitudeMap",
     "CallableUtility",
     "ConditionalValueAtRisk",
     "CostDistribution",
@@ -118,6 +120,7 @@ __all__ = [
     "Validation",
     "__version__",
     "alpha_of",
+    "attitude_map",
     "chance",
     "compare_attitudes",
     "cost_distributions",
@@ -168,7 +171,7 @@ _MODULES_FOR_LATER = {
         "relax_to_pddl",
         "to_unified_planning",
     ),
-    "planner": ("Planner", "compare_attitudes", "improving", "plan", "top_plans"),
+    "planner": ("Planner", "attitude_map", "compare_attitudes", "improving", "plan", "top_plans"),
     "result": ("Result",),
     "risk": (
         "OBJECTIVES",
@@ -194,6 +197,7 @@ _MODULES_FOR_LATER = {
         "utility_for",
     ),
     "risk.elicitation": ("Elicited", "alpha_of"),
+    "sweeps.attitude_map": ("AttitudeMap",),
     "tabulate": ("tabulate_costs",),
     "top_result": ("RankedPlan", "TopPlans"),
     "validation": ("Validation",),

@@ -88,9 +88,13 @@ def mismatch(
     return f"{reason}, or '{heuristic}' with greedy search"
 
 
+def is_swept(wanted: Objective, keep: Sequence[Keep]) -> bool:
+    """Tell whether several searches by prices find the best plan together: by the entropic value at risk."""
+    return not keep and isinstance(wanted, EntropicValueAtRisk)
+
+
 def _is_found_by_prices(wanted: Objective, keep: Sequence[Keep]) -> bool:
-    """Tell whether searches by prices find the best plan: one, or for the entropic value at risk several of them."""
-    return prices_add_up(wanted, keep) or (not keep and isinstance(wanted, EntropicValueAtRisk))
+    return prices_add_up(wanted, keep) or is_swept(wanted, keep)
 
 
 def heuristics_for(

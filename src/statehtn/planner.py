@@ -14,7 +14,7 @@ from statehtn.limits import Limits
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.pipeline import solutions, solve, solve_top
+from statehtn.pipeline import solve_top
 from statehtn.result import Result
 from statehtn.risk import Attitude, AttitudeName, ObjectiveLike
 from statehtn.session import ProgressCallback, Session, TopProgressCallback
@@ -30,6 +30,8 @@ from statehtn.settings import (
     TopSettings,
     objective_of,
 )
+from statehtn.sweeps import solutions, solve
+from statehtn.sweeps.attitude_map import RESOLUTION, AttitudeMap, map_attitudes
 from statehtn.top_result import TopPlans
 
 
@@ -241,6 +243,49 @@ class Planner:
                 break
         return returned(AttitudeComparison(tuple(results)), interrupt)
 
+    def attitude_map(
+        self,
+        low: float,
+        high: float,
+        *,
+        eps: float | None = None,
+        resolution: float = RESOLUTION,
+        solver: SolverName = "state",
+        heuristic: HeuristicName | None = None,
+        time_limit: float | None = None,
+        memory_limit: float | None = None,
+        progress: ProgressCallback | None = None,
+        interrupt: OnInterrupt = "return",
+    ) -> AttitudeMap:
+        """Find the best plan of the problem for every exponential agent of an interval of alpha, to a given loss.
+
+        Alpha is signed here: negative for seeking agents, 0 for the neutral one, positive for averse ones. Between the
+        alphas that are searched, bounds say how far from optimal a plan may be.
+
+        Args:
+            low: the least alpha; `-math.inf`: the agent to whom the least possible cost counts alone.
+            high: the largest, above it; `math.inf`: the agent to whom the largest possible cost counts alone.
+            eps: how much worse than the best one a plan may be, as a certainty equivalent, in the domain's unit; where
+                it is not given, a thousandth of what the least certainty equivalent gains on the interval.
+            resolution: the width of the intervals in which the best plan changes, as a part of the alpha.
+            solver: as for `plan`; so are `heuristic` and `progress`, which is told of one search after the other.
+            time_limit: seconds, for grounding and all searches together.
+            memory_limit: resident memory of the whole process in MB (10^6 bytes).
+            interrupt: what a Ctrl-C does: `return` what is known by then, or `raise` a `KeyboardInterrupt` with that as
+                its argument.
+
+        Raises:
+            UsageError: an argument is out of its range.
+            InputError: as `plan`; a cost has no finite price for the agent of `high`.
+            UnsupportedError: as `plan`; costs hang together by hidden facts or joint samples.
+        """
+        settings = Settings.of(solver=solver, heuristic=heuristic)
+        function(progress, "progress")
+        check_interrupt(interrupt)
+        limits = Limits.starting_now(time_limit, memory_limit)
+        found = map_attitudes(self._session, low, high, eps, resolution, settings, limits, progress)
+        return returned(found, interrupt)
+
 
 def _returned_last(results: Iterator[Result], interrupt: OnInterrupt) -> Iterator[Result]:
     for result in results:
@@ -281,3 +326,5 @@ top_plans = _one_shot(Planner.top_plans)
 """`Planner.top_plans` for a problem of one's own: see there."""
 compare_attitudes = _one_shot(Planner.compare_attitudes)
 """`Planner.compare_attitudes` for a problem of one's own: see there."""
+attitude_map = _one_shot(Planner.attitude_map)
+"""`Planner.attitude_map` for a problem of one's own: see there."""

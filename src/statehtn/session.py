@@ -71,6 +71,10 @@ class Session:
                 self._priced[objective] = price(grounding, objective, limits)
         return self._priced[objective]
 
+    def forget(self, objective: AdditiveObjective) -> None:
+        """Keep the prices of an objective no longer."""
+        self._priced.pop(objective, None)
+
     def search(
         self, settings: Settings, limits: Limits, meter: Meter, progress: ProgressCallback | None
     ) -> Iterator[SearchOutcome]:

@@ -78,6 +78,11 @@ def calls(folder: Path) -> dict[str, Call]:
             {"alpha": 1.0, "attitudes": ["averse"], "solver": "state", "heuristic": "lmcut", "search": "astar"}
             | limits,
         ),
+        "attitude_map": (
+            statehtn.attitude_map,
+            [problem, -0.5, 0.5],
+            {"eps": 0.5, "resolution": 0.1, "solver": "state", "heuristic": "lmcut"} | limits,
+        ),
         "validate": (statehtn.validate, [problem, plan], {}),
         "read_hddl": (statehtn.read_hddl, [folder / "d", folder / "p"], {"strict": False}),
         "read_hddl_text": (statehtn.read_hddl_text, [DOMAIN, PROBLEM], {"domain_file": "d", "problem_file": "p"}),

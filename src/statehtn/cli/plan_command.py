@@ -19,10 +19,10 @@ from statehtn.hddl.plan_format import write_plan
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
-from statehtn.pipeline import solutions
 from statehtn.result import Result
 from statehtn.session import Session
 from statehtn.settings import Settings
+from statehtn.sweeps import solutions
 
 
 def run_plan(options: argparse.Namespace) -> ExitCode:

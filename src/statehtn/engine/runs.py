@@ -17,10 +17,10 @@ from statehtn.errors import InternalError, StateHtnError, UsageError
 from statehtn.interop.conversion import Conversion
 from statehtn.limits import Limits
 from statehtn.model.status import Status
-from statehtn.pipeline import solutions
 from statehtn.result import Result
 from statehtn.session import Session
 from statehtn.settings import Settings
+from statehtn.sweeps import solutions
 
 SHORTEST_SECONDS = 1e-3  # what is left to the search where converting the problem took all the time
 

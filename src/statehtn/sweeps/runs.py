@@ -1,0 +1,93 @@
+"""The runs of a sweep: many searches of one session, under common limits, told of as one."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import fields, replace
+
+from statehtn.core.progress import Progress
+from statehtn.core.search import last_of
+from statehtn.effort import SearchEffort, Statistics
+from statehtn.limits import Limits
+from statehtn.model.status import Status
+from statehtn.pipeline import solutions
+from statehtn.result import Result
+from statehtn.risk import AdditiveObjective
+from statehtn.session import ProgressCallback, Session
+from statehtn.settings import Settings
+
+
+class Runs:
+    """Searches of one problem for one objective after the other.
+
+    Args:
+        session: the problem.
+        settings: how to search; the objective is that of each run.
+        limits: they hold for all runs together.
+        progress: is called while a run goes on, with what is known of the sweep.
+    """
+
+    def __init__(
+        self, session: Session, settings: Settings, limits: Limits, progress: ProgressCallback | None = None
+    ) -> None:
+        self.session = session
+        self.settings = settings
+        self.limits = limits
+        self.progress = progress
+        self.started = time.monotonic()
+        self.statistics = Statistics()
+        self.stopped: Status | None = None
+        self.unread = False
+        self.count = 0
+        self.bound: float | None = None
+        """What is proven of the value of every plan, for the progress."""
+        self.best: float | None = None
+        """The value of the best plan known, for the progress."""
+
+    @property
+    def has_scenarios(self) -> bool:
+        """Whether costs hang together, so that certainty equivalents do not add up; known after the first run."""
+        problem = self.session.problem
+        return problem is not None and bool(problem.scenarios)
+
+    def run(self, prices: AdditiveObjective) -> Result:
+        """Search for the plan of least cost at some prices, and prove that it is."""
+        settings = replace(self.settings, objective=prices, search="astar")
+        return last_of(self._results(settings, prices, every_plan=False))
+
+    def improving(self, prices: AdditiveObjective) -> Iterator[Result]:
+        """Search as the settings say; yield better and better plans where that is `anytime`, and last how it ended."""
+        settings = replace(self.settings, objective=prices)
+        return self._results(settings, prices, every_plan=settings.search == "anytime")
+
+    def _results(self, settings: Settings, prices: AdditiveObjective, every_plan: bool) -> Iterator[Result]:
+        before = self.statistics
+        for result in solutions(self.session, settings, self.limits, self._told(), every_plan):
+            self.statistics = _together(before, result.statistics)
+            self.stopped, self.unread = result.stopped, result.unread
+            yield result
+        self.session.forget(prices)
+        self.count += 1
+
+    def _told(self) -> ProgressCallback | None:
+        progress = self.progress
+        if progress is None:
+            return None
+        before = self.statistics.search or SearchEffort()
+
+        def tell(now: Progress) -> None:
+            seconds = time.monotonic() - self.started
+            progress(Progress(seconds, before + now.effort, self.bound, self.best))
+
+        return tell
+
+
+def _together(one: Statistics, more: Statistics) -> Statistics:
+    """Return the effort of two runs, the second of which was later; sizes and the peak of memory are its own."""
+    added = {}
+    for name in (field.name for field in fields(Statistics)):
+        if name == "search" or name.endswith("_seconds"):
+            before, now = getattr(one, name), getattr(more, name)
+            added[name] = before if now is None else now if before is None else before + now
+    return replace(more, **added)
