@@ -62,6 +62,8 @@ def test_every_kind_of_law_is_what_with_cost_gives(tmp_path: Path, vehicle: stat
         ("counts = [[17, 2]]\nprior = [[1, 2], [0.1, 60]]", CostDistribution.from_counts({2: 17}, {2: 1, 60: 0.1})),
         ('distribution = "gamma"\nparameters = { a = 2, scale = 3 }', stats.gamma(2, scale=3)),
         ('distribution = "expon"', stats.expon()),
+        ("pert = [2, 3, 9]", stats.beta(1 + 4 / 7, 5 - 4 / 7, loc=2, scale=7)),
+        ("pert = [3, 3, 3]", 3),
         ('distribution = "randint"\nparameters = { low = 1, high = 4 }', stats.randint(1, 4)),
     ]
     for text, cost in cases:

@@ -44,7 +44,8 @@ def on_a_new_builder(method: str, domain: bool = True) -> Callable[..., Any]:
 
 
 def calls(folder: Path) -> dict[str, Call]:
-    for name, text in (("d", DOMAIN), ("p", PROBLEM), ("c", '[[costs]]\naction = "take-car"\ncost = 3\n')):
+    files = {"d": DOMAIN, "p": PROBLEM, "c": '[[costs]]\naction = "take-car"\ncost = 3\n', "days": "take-car\n3\n"}
+    for name, text in files.items():
         (folder / name).write_text(text)
     problem = statehtn.read_hddl_text(DOMAIN, PROBLEM)
     result = statehtn.plan(problem)
@@ -90,6 +91,7 @@ def calls(folder: Path) -> dict[str, Call]:
         "read_plan": (statehtn.read_plan, [statehtn.write_plan(plan, problem), problem], {"file": "x"}),
         "write_plan": (statehtn.write_plan, [plan, problem], {}),
         "read_costs": (statehtn.read_costs, [folder / "c"], {}),
+        "read_joint_samples": (statehtn.read_joint_samples, [folder / "days"], {}),
         "CostTable.apply": (statehtn.read_costs(folder / "c").apply, [problem], {}),
         "tabulate_costs": (statehtn.tabulate_costs, [problem], {}),
         "objective": (statehtn.objective, ["cvar 0.95"], {}),

@@ -21,6 +21,7 @@ from statehtn.model.cost.scipy_call import scipy_call
 from statehtn.model.cost.scipy_law import ScipyCost
 from statehtn.read_file import read_whole
 
+ESTIMATES = 3  # of the PERT law: optimistic, likely, pessimistic
 OWN_KEYS = ("action", "arguments")
 JOINT = "joint"
 
@@ -127,13 +128,25 @@ def _counts(table: KeyedTable, _: _Place) -> CostLaw:
     return CostDistribution.from_counts(counts, weights)
 
 
-def _distribution(table: KeyedTable, _: _Place) -> CostLaw:
+def _pert(table: KeyedTable, _: _Place) -> CostLaw:
+    given = table.values["pert"]
+    if not isinstance(given, list) or len(given) != ESTIMATES:
+        table.complain("pert", "three estimates [least, likely, most]", given)
+    _families(table, "pert")
+    law = CostDistribution.pert(*(_number(table, "pert", value) for value in given))
+    return replace(law, origin=table.place) if isinstance(law, ScipyCost) else law
+
+
+def _families(table: KeyedTable, key: str) -> Any:
     try:
         import scipy.stats as families
     except ImportError:
-        raise UsageError(
-            f"{table.place}: 'distribution' needs the package 'scipy': pip install 'statehtn[scipy]'"
-        ) from None
+        raise UsageError(f"{table.place}: '{key}' needs the package 'scipy': pip install 'statehtn[scipy]'") from None
+    return families
+
+
+def _distribution(table: KeyedTable, _: _Place) -> CostLaw:
+    families = _families(table, "distribution")
     name = table.text("distribution")
     family = getattr(families, name, None)
     if not isinstance(family, families.rv_continuous | families.rv_discrete):
@@ -165,6 +178,7 @@ LAWS: Mapping[str, tuple[Callable[[KeyedTable, _Place], CostLaw], tuple[str, ...
         "outcomes": (_outcomes, ()),
         "samples": (_samples, ()),
         "counts": (_counts, ("prior",)),
+        "pert": (_pert, ()),
         "distribution": (_distribution, ("parameters",)),
     }
 )

@@ -111,6 +111,29 @@ class CostDistribution(CostLaw):
 
         return law_of(distribution)
 
+    @staticmethod
+    def pert(least: float, likely: float, most: float) -> CostLaw:
+        """Return the PERT law of three estimates: optimistic, likely, pessimistic.
+
+        It is a beta law between `least` and `most` whose mode is `likely` and whose mean is
+        `(least + 4 likely + most) / 6`. Source: Malcolm, Roseboom, Clark and Fazar, *Application of a technique for
+        research and development program evaluation*, 1959; Vose, *Risk Analysis*, 2000.
+
+        Args:
+            least: at least 0, in the domain's unit.
+            likely: the most likely cost; not outside of the two others.
+            most: the largest cost. Where all three are equal, the cost is certain.
+
+        Raises:
+            InputError: the estimates are out of order, negative or not finite.
+            UsageError: an estimate is no number, or scipy is not installed.
+        """
+        from statehtn.model.cost.scipy_law import pert
+
+        return pert(
+            number(least, "the least cost"), number(likely, "the likely cost"), number(most, "the largest cost")
+        )
+
     @property
     def mean(self) -> float:
         """The expected cost, in the domain's unit."""
@@ -195,6 +218,20 @@ class CostDistribution(CostLaw):
         """Return the expected value of a function of the cost, as a sum over the outcomes."""
         called = checked_function(function)
         return math.fsum(probability * called(cost) for probability, cost in self.outcomes)
+
+    def to_scipy(self) -> Any:
+        """Return the law as a frozen discrete distribution of `scipy.stats`.
+
+        Raises:
+            UsageError: scipy is not installed.
+        """
+        try:
+            from scipy.stats import rv_discrete
+        except ImportError:
+            raise UsageError("laws of scipy.stats need the package 'scipy': pip install 'statehtn[scipy]'") from None
+        probabilities, costs = zip(*self.outcomes, strict=True)
+        total = math.fsum(probabilities)
+        return rv_discrete(name="outcomes", values=(costs, [probability / total for probability in probabilities]))()
 
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from operator import mul
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from statehtn.errors import UsageError
+from statehtn.errors import UnsupportedError, UsageError
 from statehtn.expected import did_you_mean, number, shown
 from statehtn.model.chance import Scenario
 from statehtn.model.cost.distribution import CostDistribution
@@ -163,6 +163,18 @@ class ScenarioCost(CostLaw):
     def expected_overrun(self, budget: float) -> float:
         """Return `E max(C - budget, 0)`: what is paid above a budget, in the mean over all cases."""
         return self._mean_of(lambda law: law.expected_overrun(budget))
+
+    def to_scipy(self) -> Any:
+        """Return the mixture as a frozen discrete distribution of `scipy.stats`.
+
+        Raises:
+            UnsupportedError: the law given some scenario is no list of outcomes.
+        """
+        if self.mixture is None:
+            raise UnsupportedError(
+                f"scipy.stats has no mixtures, such as {self}; ask for the law given a scenario: law.given(scenario)"
+            )
+        return self.mixture.to_scipy()
 
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs, each in a scenario of its own, with a generator of numpy."""

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MOST_OUTCOMES = 100_000
+PERT_WEIGHT = 4.0  # of the likely cost among the three estimates, the two others weigh 1 each
 LEAST_TAIL = 1e-18  # of a discrete law; what is beyond does not count
 
 
@@ -175,6 +176,10 @@ class ScipyCost(CostLaw):
 
         return exponential_mean(self, slope)[1]
 
+    def to_scipy(self) -> Any:
+        """Return the frozen distribution itself."""
+        return self.frozen
+
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""
         import numpy
@@ -217,6 +222,9 @@ def law_of(distribution: Any) -> CostLaw:
         raise InputError(
             f"expected a frozen distribution such as scipy.stats.gamma(2, scale=3), found {_shown(distribution)}"
         )
+    if hasattr(distribution.dist, "xk"):  # a list of outcomes, which need not be whole numbers
+        costs = distribution.dist.xk + distribution.kwds.get("loc", 0)
+        return CostDistribution.of(zip(distribution.pmf(costs).tolist(), costs.tolist(), strict=True))
     family = str(distribution.dist.name)
     law = ScipyCost(family, _parameters(distribution), distribution, _identity(distribution))
     if not law.is_discrete and any(isinstance(value, tuple) for _, value in law.parameters):
@@ -243,6 +251,24 @@ def law_of(distribution: Any) -> CostLaw:
     if not math.isfinite(law.mean):
         raise InputError(f"{law} has no finite mean; the expected cost of an action must be finite")
     return law
+
+
+def pert(least: float, likely: float, most: float) -> CostLaw:
+    """Return the PERT law of three estimates; see `CostDistribution.pert`."""
+    if not (0 <= least <= likely <= most < math.inf):
+        raise InputError(
+            f"the estimates of a PERT law must be finite, at least 0 and in order (least, likely, most), found "
+            f"{least:g}, {likely:g}, {most:g}"
+        )
+    if least == most:
+        return CostDistribution.certain(likely)
+    try:
+        from scipy.stats import beta
+    except ImportError:
+        raise UsageError("a PERT law needs the package 'scipy': pip install 'statehtn[scipy]'") from None
+    width = most - least
+    shape = 1 + PERT_WEIGHT * (likely - least) / width
+    return law_of(beta(shape, 2 + PERT_WEIGHT - shape, loc=least, scale=width))
 
 
 def _listed(law: ScipyCost) -> CostDistribution:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import MOST_DRAWN, PLOT_POINTS, CostLaw
@@ -90,6 +90,10 @@ class CostSum(CostLaw):
     def exponential_mean_error(self, slope: float) -> float:
         """Return the error of `exponential_mean` beyond rounding."""
         return math.fsum(part.exponential_mean_error(slope) for part in self.parts)
+
+    def to_scipy(self) -> Any:
+        """Return the law of the sum as a frozen distribution of `scipy.stats`: discrete where it is on a grid."""
+        return self.total.to_scipy()
 
     def sample(self, runs: int, generator: Generator) -> NDArray[float64]:
         """Draw so many independent costs with a generator of numpy."""

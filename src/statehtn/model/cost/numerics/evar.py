@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from statehtn.model.cost.law import CostLaw
 
 GOLDEN = (math.sqrt(5) - 1) / 2
-ACCURACY = 1e-9  # of the logarithm of the minimiser; what the minimum loses is its square, relative to the range
+ACCURACY = 3e-8  # of the logarithm of the minimiser; what the minimum loses is its square, relative to the range
 SMALLEST = 1e-18  # a minimiser that is smaller by this factor than the largest one changes no digit of the minimum
 DOUBLINGS = 200
 

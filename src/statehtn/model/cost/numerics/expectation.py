@@ -14,6 +14,9 @@ from statehtn.model.cost.scipy_call import scipy_call
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from numpy import float64
+    from numpy.typing import NDArray
+
     from statehtn.model.cost.scipy_law import ScipyCost
 
 ASKED = 1e-6  # relative; an expectation that is less accurate is refused
@@ -21,37 +24,43 @@ TOLERANCE = 1e-12  # of a piece, relative to the whole
 HALVINGS = 40  # of a piece in which the function jumps or bends
 MOST_LEVEL = 6  # of a quadrature: a piece that needs more is halved
 LEAST_TAIL = 1e-18  # of a discrete law; what is beyond does not count
-AT_ONCE = 4096  # outcomes
+AT_ONCE = 64  # outcomes; twice as many the next time
 
 
 def expectation(law: ScipyCost, function: Callable[[float], float]) -> float:
-    """Return `E f(C)`, as the integral of `f(Q(u))` over the probabilities `u`, or as a sum for a discrete law.
+    """Return `E f(C)` for a function of one number; see `integrated`."""
+    if law.is_discrete:
+        return _sum(law, function)
+    return integrated(law, numpy.vectorize(function, otypes=[float]))
 
-    Quantiles are taken from both ends, since floats near 0 are fine and those near 1 are coarse. Pieces in which the
-    quadrature is not sure are halved.
+
+def integrated(law: ScipyCost, each: Callable[[NDArray[float64]], NDArray[float64]]) -> float:
+    """Return `E f(C)`, as the integral of `f(Q(u))` over the probabilities `u`, for a function of arrays.
+
+    Quantiles are taken from both ends, since floats near 0 are fine and those near 1 are coarse. Pieces are halved
+    until their integrals are the sums of those of their halves.
 
     Raises:
         InputError: the quadrature is not sure of 1e-6 of the result.
     """
-    if law.is_discrete:
-        return _sum(law, function)
-    each = numpy.vectorize(function, otypes=[float])
     value, error, size = 0.0, 0.0, 0.0
     for quantile in (law.frozen.ppf, law.frozen.isf):
         starts, ends = numpy.array([0.0]), numpy.array([0.5])
+        whole = _in_pieces(law, quantile, each, starts, ends)
         for halving in range(HALVINGS + 1):
-            with scipy_call(law.title):
-                found = tanhsinh(lambda u, at=quantile: each(at(u)), starts, ends, maxlevel=MOST_LEVEL)
-            size = max(size, float(numpy.abs(found.integral).sum()))
-            rough = ~(found.error <= TOLERANCE * size)
+            middles = (starts + ends) / 2
+            starts, ends = numpy.stack([starts, middles]), numpy.stack([middles, ends])
+            halves = _in_pieces(law, quantile, each, starts.ravel(), ends.ravel()).reshape(starts.shape)
+            difference = numpy.abs(halves.sum(axis=0) - whole)
+            size = max(size, float(numpy.abs(halves).sum()))
+            rough = ~(difference <= TOLERANCE * size)
             if halving == HALVINGS:
                 rough[:] = False
-            value += math.fsum(found.integral[~rough])
-            error += math.fsum(found.error[~rough])
+            value += math.fsum(halves[:, ~rough].ravel())
+            error += math.fsum(difference[~rough])
             if not rough.any():
                 break
-            middles = (starts + ends)[rough] / 2
-            starts, ends = numpy.append(starts[rough], middles), numpy.append(middles, ends[rough])
+            starts, ends, whole = starts[:, rough].ravel(), ends[:, rough].ravel(), halves[:, rough].ravel()
     if not error <= ASKED * size:
         raise InputError(
             f"{law.title}: the expected value of the function cannot be integrated well enough (found {value:g}, to "
@@ -60,13 +69,23 @@ def expectation(law: ScipyCost, function: Callable[[float], float]) -> float:
     return value
 
 
+def _in_pieces(
+    law: ScipyCost,
+    quantile: Callable[[NDArray[float64]], NDArray[float64]],
+    each: Callable[[NDArray[float64]], NDArray[float64]],
+    starts: NDArray[float64],
+    ends: NDArray[float64],
+) -> NDArray[float64]:
+    with scipy_call(law.title):
+        return numpy.asarray(tanhsinh(lambda u: each(quantile(u)), starts, ends, maxlevel=MOST_LEVEL).integral)
+
+
 def _sum(law: ScipyCost, function: Callable[[float], float]) -> float:
-    terms = []
-    first = law.least
+    terms: list[float] = []
+    first, count = law.least, AT_ONCE
     while first <= law.most and law.frozen.sf(first - 1) > LEAST_TAIL:
-        costs = first + numpy.arange(min(AT_ONCE, law.most - first + 1))
-        terms += [
-            mass * function(cost) for cost, mass in zip(costs.tolist(), law.frozen.pmf(costs).tolist(), strict=True)
-        ]
-        first += AT_ONCE
+        costs = first + numpy.arange(min(count, law.most - first + 1))
+        masses = law.frozen.pmf(costs)
+        terms += (mass * function(cost) for cost, mass in zip(costs.tolist(), masses.tolist(), strict=True))
+        first, count = first + count, 2 * count
     return math.fsum(terms)

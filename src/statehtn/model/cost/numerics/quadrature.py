@@ -17,7 +17,7 @@ from scipy.stats import rv_continuous
 from statehtn.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from numpy import float64
     from numpy.typing import NDArray
@@ -132,6 +132,14 @@ def excess(law: ScipyCost, budget: float) -> float:
     edges = numpy.unique([start, *(point for point in points if start < point < law.most), law.most])
     found = tanhsinh(law.frozen.sf, edges[:-1], edges[1:])
     return below + math.fsum(found.integral)
+
+
+def excesses(law: ScipyCost, budgets: Sequence[float]) -> list[float]:
+    """Return `E[max(C - budget, 0)]` of a continuous law for each of some ascending budgets."""
+    edges = numpy.clip(budgets, law.least, law.most)
+    between = tanhsinh(law.frozen.sf, edges[:-1], edges[1:]).integral
+    above = numpy.append(numpy.cumsum(between[::-1])[::-1], 0.0) + excess(law, float(edges[-1]))
+    return list(numpy.maximum(above + numpy.maximum(law.least - numpy.asarray(budgets), 0.0), 0.0).tolist())
 
 
 def has_infinite_moment(law: ScipyCost, slope: float) -> bool:
