@@ -8,5 +8,6 @@ NB_MODULE(_relax, module) {
     bind_search_options(module);
     bind_find_plans(module);
     bind_valuations(module);
+    bind_laws(module);
     bind_label_search(module);
 }

@@ -113,6 +113,9 @@ std::optional<StopReason> LabelSearch::search() {
     }
     const ValueId start = valuation_.start();
     const Worth bound = valuation_.bound(start, labels_.to_come(root), 0);
+    if (bound != kNoWorth) {
+        note_proven(bound);
+    }
     if (!is_wanted(bound)) {
         return std::nullopt;
     }
@@ -157,10 +160,10 @@ bool LabelSearch::keeps_bound(LabelId id) {
 // Heuristics are made when the search has taken as long as that takes, or so: many a problem is solved by then.
 bool LabelSearch::asks_from_now_on() {
     const std::uint64_t model = options_.heuristic->has_model ? problem_.action_count() + problem_.method_count() : 0;
-    if (!heuristics_.empty() || work() < kWorkOfAModel * model * valuation_.prices().size()) {
+    if (!heuristics_.empty() || work() < kWorkOfAModel * model * valuation_.asked()) {
         return false;
     }
-    for (const PricedProblem* const priced : valuation_.prices()) {
+    for (const PricedProblem* const priced : valuation_.prices().first(valuation_.asked())) {
         heuristics_.emplace_back(options_.heuristic->make(*priced, limits_), !options_.selective);
     }
     return true;

@@ -11,7 +11,14 @@ from statehtn.compatible import SOLVERS
 from statehtn.core.finite_labels import SWITCHES
 from statehtn.core.heuristics import HEURISTICS
 from statehtn.core.searches import SEARCHES, TAKES
-from statehtn.core.switches import LabelSwitches, ProgressionSwitches, SearchSwitches, TopSwitches, set_switches
+from statehtn.core.switches import (
+    LabelSwitches,
+    LawSwitches,
+    ProgressionSwitches,
+    SearchSwitches,
+    TopSwitches,
+    set_switches,
+)
 
 NO_SWITCHES = {"in_sequence", "when_due", "explores"}
 """What greedy search is asked for; it does change what is found."""
@@ -29,9 +36,12 @@ def switches_of(options: object) -> dict[str, bool]:
         (SearchSwitches, _relax.FindPlansOptions),
         (ProgressionSwitches, _relax.GreedyOptions),
         (TopSwitches, _relax.LabelSearchOptions),
+        (LawSwitches, _relax.LawOptions),
     ],
 )
-def test_switches_are_the_fields_of_the_core(kind: type[ProgressionSwitches], options: type) -> None:
+def test_switches_are_the_fields_of_the_core(
+    kind: type[ProgressionSwitches] | type[LawSwitches], options: type
+) -> None:
     everything_on = {field.name: True for field in fields(kind)}
     assert switches_of(options()) == everything_on
     off = options()

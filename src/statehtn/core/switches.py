@@ -40,8 +40,26 @@ class TopSwitches(BoundSwitches):
     """Keep at most k labels at every node."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class LawSwitches:
+    """Refinements of the search by an objective that needs the law of the cost."""
+
+    stochastic_order: bool = True
+    """Leave out a way where no cost is exceeded with a higher probability by another one."""
+    convex_order: bool = True
+    """Leave out a way where no cost is exceeded by more in the mean by another one, if the objective shuns risk."""
+    pairwise: bool = True
+    """Compare ways only as far as the objective tells costs apart, for what is still to come."""
+    least_bound: bool = True
+    """Bound what is to come by its least cost."""
+    mean_bound: bool = True
+    """Bound what is to come by its expected cost, if the objective shuns risk."""
+    graph_bound: bool = True
+    """Bound what is to come by the graph of laws: a law for every task."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LabelSwitches(TopSwitches):
+class LabelSwitches(TopSwitches, LawSwitches):
     """Refinements of the search by an objective whose label is not one price; each family has its own."""
 
     # Of labels that are several sums.
@@ -73,7 +91,9 @@ class SearchSwitches(BoundSwitches):
     """Pass through nodes with a single successor, as long as f does not rise."""
 
 
-def set_switches(options: object, switches: ProgressionSwitches, kind: type[ProgressionSwitches] | None = None) -> None:
+def set_switches(
+    options: object, switches: ProgressionSwitches, kind: type[ProgressionSwitches] | type[LawSwitches] | None = None
+) -> None:
     """Hand switches over to options of the core; of a kind of them only, if it is said."""
     for switch in fields(kind or switches):
         setattr(options, switch.name, getattr(switches, switch.name))

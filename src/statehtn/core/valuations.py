@@ -6,9 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from statehtn.core.budget_labels import BudgetLabels
 from statehtn.core.exponential_labels import ExponentialLabels
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels
+from statehtn.core.law_labels import LawLabels
+from statehtn.core.law_objectives import OBJECTIVES
 from statehtn.core.mean_deviation_labels import MeanDeviationLabels
 from statehtn.core.price_labels import PriceLabels
 from statehtn.core.switches import LabelSwitches
@@ -32,6 +35,7 @@ VALUATIONS: Mapping[type, Constructor] = MappingProxyType(
         OneSwitch: ExponentialLabels,
         Exponentials: ExponentialLabels,
         MeanDeviation: MeanDeviationLabels,
+        **dict.fromkeys(OBJECTIVES, LawLabels),
     }
 )
 """By the class of an objective: how its labels are made."""
@@ -43,13 +47,12 @@ def labels_of(
     """Return how plans are compared in the core by an objective, of those that keep budgets.
 
     Raises:
-        UnsupportedError: there is no label search by it, or with budgets.
+        UnsupportedError: there is no label search by it.
         InputError: a cost has no finite price for it; the message names the action.
         LimitReached: a limit was reached.
     """
     make = VALUATIONS.get(type(objective))
     if make is None:
         raise UnsupportedError(f"there is no label search by the objective '{objective}'")
-    if keep:
-        raise UnsupportedError("there is no label search with budgets to keep")
-    return make(grounding, objective, switches, limits)
+    labels = make(grounding, objective, switches, limits)
+    return BudgetLabels(labels, keep, switches, limits) if keep else labels

@@ -2,6 +2,7 @@
 #define RELAX_VALUATIONS_VALUATION_HPP
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -34,6 +35,8 @@ public:
 
     // The vectors of prices at which it is to be told what is still to come. They stay.
     virtual std::span<const PricedProblem* const> prices() const = 0;
+    // At so many of them, the first, a heuristic is worth its time; at the others bounds that come for nothing will do.
+    virtual std::size_t asked() const { return prices().size(); }
     // Before all that follows: the networks that the search will make. Throws Stopped.
     virtual void begin(const TaskNetworks& /*networks*/, Limits& /*limits*/) {}
 

@@ -1,0 +1,211 @@
+#include "relax/valuations/graph_of_laws.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <deque>
+#include <utility>
+
+#include "relax/base/cost.hpp"
+#include "relax/valuations/law_orders.hpp"
+
+namespace relax {
+
+namespace {
+
+constexpr std::uint8_t kMostRounds = 32;
+constexpr double kLift = 0x1p-32;
+
+}  // namespace
+
+GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::span<const LawId> action_laws,
+                         std::span<const Cost> least, Limits& limits)
+    : problem_(problem),
+      table_(table),
+      laws_(problem.task_count()),
+      is_known_(problem.task_count(), false),
+      rounds_(problem.task_count(), 0) {
+    for (const ActionId action : problem.actions()) {
+        laws_[task_of(action)] = action_laws[action];
+        is_known_[task_of(action)] = true;
+    }
+    const auto methods_with = invert(problem.method_subtasks, problem.task_count(), limits);
+    const std::vector<TaskId> order = subtasks_first();
+    std::deque<TaskId> queue(order.begin(), order.end());
+    std::vector<bool> is_queued(problem.task_count(), false);
+    for (const TaskId task : queue) {
+        is_queued[task] = true;
+    }
+    while (!queue.empty()) {
+        limits.stop_if_reached();
+        const TaskId task = queue.front();
+        queue.pop_front();
+        is_queued[task] = false;
+        if (rounds_[task] > kMostRounds) {
+            continue;
+        }
+        if (++rounds_[task] > kMostRounds) {
+            at_.assign(1, static_cast<double>(least[task]));
+            probability_.assign(1, 1.0);
+            laws_[task] = table_.add(at_, probability_);
+        } else if (!update(task, limits)) {
+            continue;
+        }
+        for (const MethodId method : methods_with[task]) {
+            const TaskId parent = problem.method_task[method];
+            if (!is_queued[parent]) {
+                is_queued[parent] = true;
+                queue.push_back(parent);
+            }
+        }
+    }
+    for (const TaskId task : problem.compounds()) {
+        if (is_known_[task]) {
+            laws_[task] = lifted(laws_[task]);
+        }
+    }
+}
+
+// Compound tasks, each after those that it can be decomposed into where there is no cycle.
+std::vector<TaskId> GraphOfLaws::subtasks_first() const {
+    std::vector<TaskId> order;
+    std::vector<bool> is_seen(problem_.task_count(), false);
+    std::vector<std::pair<TaskId, bool>> stack;  // whether its subtasks are done
+    for (const TaskId root : problem_.compounds()) {
+        stack.emplace_back(root, false);
+        while (!stack.empty()) {
+            const auto [task, is_done] = stack.back();
+            stack.pop_back();
+            if (is_done) {
+                order.push_back(task);
+                continue;
+            }
+            if (problem_.is_primitive(task) || is_seen[task]) {
+                continue;
+            }
+            is_seen[task] = true;
+            stack.emplace_back(task, true);
+            for (const MethodId method : problem_.methods_of(task)) {
+                for (const TaskId subtask : problem_.method_subtasks[method]) {
+                    stack.emplace_back(subtask, false);
+                }
+            }
+        }
+    }
+    return order;
+}
+
+// Whether the task has changed.
+bool GraphOfLaws::update(TaskId task, Limits& limits) {
+    bool is_known = is_known_[task];
+    LawId law = laws_[task];
+    for (const MethodId method : problem_.methods_of(task)) {
+        const auto subtasks = problem_.method_subtasks[method];
+        if (!std::ranges::all_of(subtasks, [this](TaskId subtask) { return is_known_[subtask]; })) {
+            continue;
+        }
+        LawId sum = LawTable::kFree;
+        for (const TaskId subtask : subtasks) {
+            sum = table_.sum(sum, laws_[subtask], limits);
+        }
+        law = is_known ? highest(law, sum) : sum;
+        is_known = true;
+    }
+    if (!is_known || (is_known_[task] && is_never_more(table_[laws_[task]], table_[law]))) {
+        return false;
+    }
+    is_known_[task] = true;
+    laws_[task] = law;
+    return true;
+}
+
+// For each cost the higher one of the two probabilities of at most so much.
+LawId GraphOfLaws::highest(LawId one, LawId other) {
+    const Law& left = table_[one];
+    const Law& right = table_[other];
+    if (one == other || is_never_more(left, right)) {
+        return one;
+    }
+    if (is_never_more(right, left)) {
+        return other;
+    }
+    at_.clear();
+    probability_.clear();
+    double above = 1.0;
+    std::size_t i = 0;
+    std::size_t j = 0;
+    while (i < left.size() || j < right.size()) {
+        const double at =
+            j == right.size() || (i < left.size() && left.at[i] <= right.at[j]) ? left.at[i] : right.at[j];
+        i += i < left.size() && left.at[i] == at ? 1 : 0;
+        j += j < right.size() && right.at[j] == at ? 1 : 0;
+        const double lower = std::min(left.above_of(i), right.above_of(j));
+        if (lower < above) {
+            at_.push_back(at);
+            probability_.push_back(above - lower);
+            above = lower;
+        }
+    }
+    return table_.add(at_, probability_);
+}
+
+LawId GraphOfLaws::lifted(LawId id) {
+    const Law& law = table_[id];
+    if (law.size() == 1) {
+        return id;
+    }
+    at_.assign(law.at.begin(), law.at.end());
+    probability_.assign(law.probability.begin(), law.probability.end());
+    double moved = 0.0;
+    while (moved < kLift && at_.size() > 1) {
+        const double taken = std::min(probability_.back(), kLift - moved);
+        moved += taken;
+        if (taken < probability_.back()) {
+            probability_.back() -= taken;
+            break;
+        }
+        at_.pop_back();
+        probability_.pop_back();
+    }
+    probability_.front() += moved;
+    return table_.add(at_, probability_);
+}
+
+const Law& NetworkLaws::of(NetworkId network, Limits& limits) {
+    while (network >= by_network_.size()) {
+        by_network_.push_back(kUnknown);
+    }
+    LawId law = by_network_[network];
+    if (law == kUnknown) {
+        tasks_.clear();
+        networks_.tasks(network, tasks_);
+        laws_.clear();
+        for (const TaskId task : tasks_) {
+            laws_.push_back(of_task(task));
+        }
+        // Networks share their ends where they are lists, and a few components in any order where they are not.
+        if (networks_.are_totally_ordered()) {
+            std::ranges::reverse(laws_);
+        } else {
+            std::ranges::sort(laws_);
+        }
+        law = LawTable::kFree;
+        for (const LawId summand : laws_) {
+            law = table_.sum(law, summand, limits);
+        }
+        by_network_[network] = law;
+    }
+    return table_[law];
+}
+
+LawId NetworkLaws::of_task(TaskId task) {
+    if (task >= by_task_.size()) {
+        by_task_.resize(task + 1, kUnknown);
+    }
+    if (by_task_[task] == kUnknown) {
+        const Law& law = task_table_[graph_[task]];
+        by_task_[task] = table_.add(law.at, law.probability);
+    }
+    return by_task_[task];
+}
+
+}  // namespace relax

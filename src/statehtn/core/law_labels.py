@@ -1,0 +1,68 @@
+"""Labels of objectives that need the law of what a way has cost."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import statehtn._relax as _relax
+from statehtn.core.grounding import Grounding
+from statehtn.core.labels import Labels, Support
+from statehtn.core.law_grid import LawGrid
+from statehtn.core.law_objectives import MOST_TABLED, OBJECTIVES
+from statehtn.core.switches import LabelSwitches, LawSwitches, set_switches
+from statehtn.limits import Limits
+from statehtn.risk.callable_utility import CallableUtility
+from statehtn.risk.objective import Objective
+
+MOST_LIKELY = 1 - 1e-9
+"""The quantile up to which a Python function is tabled at first, of plans whose cost has no end."""
+
+
+class LawLabels(Labels):
+    """Laws on a grid.
+
+    Args:
+        grounding: the ground problem.
+        objective: its class is in `OBJECTIVES`.
+        switches: refinements to leave out.
+        limits: they hold while laws are put on a grid.
+    """
+
+    def __init__(self, grounding: Grounding, objective: Objective, switches: LabelSwitches, limits: Limits) -> None:
+        super().__init__(grounding, objective)
+        self.grid = LawGrid.first(grounding, limits)
+        self._options = law_options(switches)
+        self._reach = 0.0  # the cost up to which a Python function is tabled
+
+    @property
+    def valuation(self) -> _relax.Valuation:
+        """The laws on the present grid, and how the objective values them."""
+        grid = self.grid
+        objective = OBJECTIVES[type(self.objective)](self.objective, grid.grid.step, self._reach or grid.largest)
+        return _relax.LawValuation(grid.least, grid.means, grid.units_per_step, grid.costs, objective, self._options)
+
+    def refine(self, limits: Limits) -> bool:
+        """Take a finer grid, or ask a Python function for larger costs."""
+        finer = self.grid.finer(limits)
+        if finer is not None:
+            self.grid = finer
+            return True
+        is_tabled = isinstance(self.objective, CallableUtility)
+        self._reach = 2 * (self._reach or self.grid.largest)
+        return is_tabled and self._reach <= MOST_TABLED * float(self.grid.grid.step)
+
+    def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
+        """Yield what searches with a single price for each action find."""
+        for support in super().support(limits, share):
+            for law in map(self.law, support.traces):
+                most = law.most if math.isfinite(law.most) else law.quantile(MOST_LIKELY)
+                self._reach = max(self._reach, 2 * most)
+            yield support
+
+
+def law_options(switches: LabelSwitches) -> _relax.LawOptions:
+    """Return the options of the core for laws."""
+    options = _relax.LawOptions()
+    set_switches(options, switches, LawSwitches)
+    return options

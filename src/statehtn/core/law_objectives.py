@@ -1,0 +1,73 @@
+"""Objectives in the core that value laws on a grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from itertools import accumulate, pairwise
+from types import MappingProxyType
+from typing import Any
+
+import statehtn._relax as _relax
+from statehtn.risk.callable_utility import CallableUtility
+from statehtn.risk.cvar import ConditionalValueAtRisk
+from statehtn.risk.deadline import Deadline
+from statehtn.risk.mean_cvar import MeanCvar
+from statehtn.risk.overrun import Overrun
+from statehtn.risk.piecewise import Piecewise
+from statehtn.risk.quantile import Quantile
+
+MOST_TABLED = 2**17
+"""Costs on the grid for which a Python function is asked; the utility is taken as flat beyond, which is a bound."""
+
+
+def steps(cost: float, step: Fraction) -> float:
+    """Return how many steps a cost has; the float means the decimal that it prints as."""
+    return float(Fraction(repr(cost)) / step)
+
+
+def _deadline(objective: Deadline, step: Fraction, _: float) -> _relax.LawObjective:
+    last = math.floor(Fraction(repr(objective.budget)) / step)
+    return _relax.ExpectedDisutility(0.0, 0.0, [(float(last), 1.0, 0.0)])
+
+
+def _overrun(objective: Overrun, step: Fraction, _: float) -> _relax.LawObjective:
+    return _relax.ExpectedDisutility(0.0, 0.0, [(steps(objective.budget, step), 0.0, float(step))])
+
+
+def _piecewise(objective: Piecewise, step: Fraction, _: float) -> _relax.LawObjective:
+    (first, utility), *others = objective.points
+    slopes = [-slope for slope in objective.slopes]
+    rises = [(later - before) * float(step) for before, later in pairwise(slopes)]
+    kinks = [(steps(cost, step), 0.0, rise) for (cost, _), rise in zip(others, [*rises, 0.0], strict=True)]
+    return _relax.ExpectedDisutility(-utility - slopes[0] * first, slopes[0] * float(step), kinks)
+
+
+def _quantile(objective: Quantile, step: Fraction, _: float) -> _relax.LawObjective:
+    return _relax.QuantileOfLaw(objective.level, float(step))
+
+
+def _mean_cvar(objective: MeanCvar | ConditionalValueAtRisk, step: Fraction, _: float) -> _relax.LawObjective:
+    return _relax.MeanCvarOfLaw(objective.level, objective.weight, float(step))
+
+
+def _callable(objective: CallableUtility, step: Fraction, reach: float) -> _relax.LawObjective:
+    count = min(MOST_TABLED, math.ceil(reach / float(step)) + 1)
+    table = [-objective.utility(float(step * number)) for number in range(count)]
+    rising = list(accumulate(reversed(table), min))  # but for rounding the table is that
+    return _relax.TabulatedDisutility(rising[::-1])
+
+
+OBJECTIVES: Mapping[type, Callable[[Any, Fraction, float], _relax.LawObjective]] = MappingProxyType(
+    {
+        Deadline: _deadline,
+        Overrun: _overrun,
+        Piecewise: _piecewise,
+        Quantile: _quantile,
+        ConditionalValueAtRisk: _mean_cvar,
+        MeanCvar: _mean_cvar,
+        CallableUtility: _callable,
+    }
+)
+"""By the class of an objective: what it is in the core, for a step of the grid and a cost up to which it is tabled."""
