@@ -47,6 +47,24 @@ def test_the_sum_is_what_enumeration_gives(plan: list[CostDistribution]) -> None
     assert found.outcomes == tuple((float(expected[cost]), float(cost)) for cost in sorted(expected))
 
 
+@given(st.lists(laws(), max_size=5), st.sampled_from([1.0, 0.25, 1e6]), st.integers(0, 3))
+def test_packed_weights_are_those_of_pairs(plan: list[CostDistribution], unit: float, copies: int) -> None:
+    plan = [CostDistribution.of((p, cost * unit) for p, cost in law.outcomes) for law in plan * copies]
+    packed = totals.exact_total(plan)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(totals, "MOST_BYTES", -1)
+        assert totals.exact_total(plan) == packed
+
+
+def test_long_plans_have_exact_laws() -> None:
+    law = CostDistribution.of([(0.3, 0.5), (0.6, 1.25), (0.1, 7)])
+    total = total_cost([law] * 300)
+    assert type(total) is CostDistribution
+    assert len(total.outcomes) > 5000
+    assert total.mean == pytest.approx(300 * law.mean, rel=1e-14)
+    assert total.variance == pytest.approx(300 * law.variance, rel=1e-13)
+
+
 @given(st.lists(laws(), min_size=2, max_size=5), st.floats(0.01, 0.99))
 def test_the_grid_is_within_its_error(plan: list[CostDistribution], level: float) -> None:
     exact = total_cost(plan)

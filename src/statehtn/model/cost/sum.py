@@ -187,8 +187,8 @@ def total_cost(laws: Iterable[CostLaw]) -> CostLaw:
     """Return the law of the sum of independent costs.
 
     It is a `CostDistribution`, exact but for one rounding of each probability and cost, where all costs are finite
-    lists of outcomes and no partial sum has more than `MOST_TOTALS` different totals (nor takes more than `MOST_PAIRS`
-    additions in all); the cost itself where there is one; a `TotalCost` otherwise.
+    lists of outcomes and no partial sum has more than `MOST_TOTALS` different totals (nor takes too long: `MOST_PAIRS`,
+    `MOST_BYTES`); the cost itself where there is one; a `TotalCost` otherwise.
     """
     parts = list(parts_of(law.summands if isinstance(law, TotalCost) else law for law in laws))
     certain = [part for part in parts if part.least == part.most]

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 MOST_TOTALS = 20_000
 """As long as no partial sum has more outcomes, the convolution is exact ..."""
 MOST_PAIRS = 4_000_000
-"""... and not more pairs of outcomes are added up on the way."""
+"""... and not more pairs of outcomes are added up on the way, one by one, ..."""
+MOST_BYTES = 5_000_000_000
+"""... or not more bytes of weights, where all possible totals are so few that each has a place: some seconds."""
 CELLS = 2**16
 """Of the grid that is taken beyond."""
 TAIL = 1e-10
@@ -35,26 +37,56 @@ def exact_total(laws: Sequence[CostDistribution]) -> CostDistribution | None:
     """
     costs = [[Fraction(repr(cost)) for _, cost in law.outcomes] for law in laws]
     unit = math.lcm(*(cost.denominator for row in costs for cost in row))
-    totals, whole, pairs = {0: 1}, 1, 0
-    for law, row in zip(laws, costs, strict=True):
-        pairs += len(totals) * len(row)
-        if len(row) > 1 and pairs > MOST_PAIRS:
-            return None
-        weights = _integers([Fraction(repr(probability)) for probability, _ in law.outcomes])
-        whole *= sum(weights)
-        steps = list(zip((int(cost * unit) for cost in row), weights, strict=True))
-        found: dict[int, int] = {}
-        for total, weight in totals.items():
-            for cost, factor in steps:
-                found[total + cost] = found.get(total + cost, 0) + weight * factor
-        totals = found
-        if len(totals) > MOST_TOTALS:
-            return None
+    steps = [[int(cost * unit) for cost in row] for row in costs]
+    weights = [_integers([Fraction(repr(probability)) for probability, _ in law.outcomes]) for law in laws]
+    totals = _packed_totals(steps, weights) or _listed_totals(steps, weights)
+    if totals is None:
+        return None
+    whole = math.prod(map(sum, weights))
     try:
         outcomes = [(weight / whole, total / unit) for total, weight in totals.items()]
     except OverflowError:
         raise InputError("the total cost is too large for a floating-point number") from None
     return CostDistribution.of(outcomes)
+
+
+def _packed_totals(steps: Sequence[Sequence[int]], weights: Sequence[Sequence[int]]) -> dict[int, int] | None:
+    """Return the weight of every total, None where totals lie too far apart for this, or there is too much to do.
+
+    The weights of all totals up to now stand beside each other in one large integer, in a field of the same width for
+    every total that could be, so that one multiplication and one shift add an outcome to all of them. It is Kronecker's
+    substitution for the product of polynomials; no field overflows, since no weight exceeds the product of all sums.
+    """
+    least = sum(row[0] for row in steps)
+    span = sum(row[-1] for row in steps) - least
+    width = (math.prod(map(sum, weights)).bit_length() + 7) // 8
+    if span >= MOST_TOTALS or span * width * sum(map(len, steps)) > MOST_BYTES:
+        return None
+    packed = 1
+    for row, factors in zip(steps, weights, strict=True):
+        packed = sum(
+            (packed * factor) << (8 * width * (step - row[0])) for step, factor in zip(row, factors, strict=True)
+        )
+    fields = packed.to_bytes((span + 1) * width, "little")
+    found = (int.from_bytes(fields[place * width : (place + 1) * width], "little") for place in range(span + 1))
+    return {least + place: weight for place, weight in enumerate(found) if weight}
+
+
+def _listed_totals(steps: Sequence[Sequence[int]], weights: Sequence[Sequence[int]]) -> dict[int, int] | None:
+    """Return the weight of every total, one pair of outcomes after the other; None where they are too many."""
+    totals, pairs = {0: 1}, 0
+    for row, factors in zip(steps, weights, strict=True):
+        pairs += len(totals) * len(row)
+        if len(row) > 1 and pairs > MOST_PAIRS:
+            return None
+        found: dict[int, int] = {}
+        for total, weight in totals.items():
+            for step, factor in zip(row, factors, strict=True):
+                found[total + step] = found.get(total + step, 0) + weight * factor
+        totals = found
+        if len(totals) > MOST_TOTALS:
+            return None
+    return totals
 
 
 def _integers(fractions: Sequence[Fraction]) -> list[int]:
