@@ -213,7 +213,7 @@ def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecke
     prices = (step.risk_cost or 0.0 for step in steps)
     value = math.fsum(prices) if law is None or adds_up else objective.value(law)
     budgets = tuple(kept(one, None if law is None else one.attained(law)) for one in keep)
-    risk_cost = value if law is None or adds_up else certainty_equivalent(objective, law)
+    risk_cost = value if law is None or adds_up else certainty_equivalent(objective, law, value)
     return FoundPlan(plan, steps, objective, unchecked, value, risk_cost, budgets)
 
 

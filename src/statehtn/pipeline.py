@@ -9,7 +9,7 @@ from statehtn.core.search import last_of
 from statehtn.core.search_run import SearchOutcome
 from statehtn.counted import counted
 from statehtn.effort import Meter, Statistics
-from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, validated_and_priced
+from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, priced, validated_and_priced
 from statehtn.limits import ENDINGS, SECONDS_TO_READ, Limits, status_of
 from statehtn.log import log
 from statehtn.model.cost.unknown import MissingNumber
@@ -23,6 +23,8 @@ from statehtn.top_result import RankedPlan, TopPlans
 
 Search = Callable[[Meter], Iterator[SearchOutcome]]
 """Reads, grounds, prices, and begins to search; the meter takes the time."""
+MOST_VALID = 100
+"""Plans of a session that are not validated again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +169,7 @@ def _phases(
         if outcome.plans.results != traces:  # the last outcome mostly has the plan of the one before
             try:
                 with meter.timed("validate"):
-                    read, unread = _validated(problem, outcome, settings, limits)
+                    read, unread = _validated(session, problem, outcome, settings, limits)
             except MissingNumber as error:
                 unpriced = error  # a better plan may do without the number
                 continue
@@ -184,7 +186,7 @@ def _phases(
 
 
 def _validated(
-    problem: Problem, outcome: SearchOutcome, settings: Settings | TopSettings, limits: Limits
+    session: Session, problem: Problem, outcome: SearchOutcome, settings: Settings | TopSettings, limits: Limits
 ) -> tuple[tuple[FoundPlan, ...], Status | None]:
     """Put plans together, validate and price them; return them, and what ended that before all were put together.
 
@@ -201,9 +203,13 @@ def _validated(
     stopped: Status | None = None
     try:
         for plan in outcome.plans.read(limits.with_grace(SECONDS_TO_READ, is_over=is_over)):
-            if stopped is None:
+            if stopped is None and plan in session.valid:  # a sweep finds the same plan again and again
+                found.append(priced(session.valid[plan], *wanted))
+            elif stopped is None:
                 found.append(validated_and_priced(problem, plan, *wanted, left))
                 stopped = found[-1].unchecked
+                if stopped is None and len(session.valid) < MOST_VALID:
+                    session.valid[plan] = found[-1].plan
             else:
                 found.append(not_validated(plan, *wanted, stopped))
     except ENDINGS as ending:

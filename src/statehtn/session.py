@@ -18,6 +18,7 @@ from statehtn.core.top_plans import find_top_plans
 from statehtn.effort import Meter
 from statehtn.limits import Limits
 from statehtn.log import log
+from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.risk import AdditiveObjective, Neutral
@@ -40,6 +41,8 @@ class Session:
         self.source = source
         self.problem = source if isinstance(source, Problem) else None
         self._grounding: Grounding | None = None
+        self.valid: dict[Plan, Plan] = {}
+        """Plans that were found to be valid, with what their steps cost."""
         self._priced: dict[AdditiveObjective, PricedProblem] = {}
 
     def read(self, limits: Limits, meter: Meter) -> Problem:

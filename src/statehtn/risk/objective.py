@@ -69,13 +69,20 @@ class AdditiveObjective(Objective, Protocol):
         ...
 
 
-def certainty_equivalent(objective: Objective, law: CostLaw) -> float | None:
+def certainty_equivalent(objective: Objective, law: CostLaw, value: float | None = None) -> float | None:
     """Return the certain cost that an objective values as much as a law; None where there is none, or no single one.
 
     It is the value itself where that is a cost, and what the objective says where it has a method of this name.
+
+    Args:
+        objective: whose it is.
+        law: of the cost.
+        value: that of the law, where it is known.
     """
     own = getattr(objective, "certainty_equivalent", None)
     if own is not None:
         found: float | None = own(law)
         return found
-    return objective.value(law) if objective.unit == ValueUnit.COST else None
+    if objective.unit != ValueUnit.COST:
+        return None
+    return objective.value(law) if value is None else value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -37,6 +38,11 @@ class CostSum(CostLaw):
     def total(self) -> CostLaw:
         """The law of the sum: exact, or on a grid with bounds on its error; see `total_cost`."""
         return total_cost(self.parts)
+
+    @cached_property
+    def _counted(self) -> tuple[tuple[CostLaw, int], ...]:
+        """Different parts, and how often each is there: long plans have few laws."""
+        return tuple(Counter(self.parts).items())
 
     @property
     def mean(self) -> float:
@@ -85,7 +91,7 @@ class CostSum(CostLaw):
 
     def exponential_mean(self, slope: float) -> float:
         """Return `ln E[e^(slope C)] / slope`, the sum of those of the parts."""
-        return math.fsum(part.exponential_mean(slope) for part in self.parts)
+        return math.fsum(count * part.exponential_mean(slope) for part, count in self._counted)
 
     def exponential_mean_error(self, slope: float) -> float:
         """Return the error of `exponential_mean` beyond rounding."""
