@@ -68,7 +68,7 @@ def test_from_python(library: str, extra: str, code: str) -> None:
 def test_on_the_command_line(library: str, extra: str, arguments: tuple[str, ...], tmp_path: Path) -> None:
     results = tmp_path / "results.csv"
     if "{results}" in arguments:
-        write(results, [planned(problem("av", "p1"), "av", "p1", ("averse", 0.9))])
+        write(results, [planned(problem("av", "p1"), "av", "p1", "averse 0.9")])
     run = statehtn((library,), *(part.format(tmp=tmp_path, results=results) for part in arguments))
     assert (run.returncode, run.stdout) == (2, ""), run.stderr
     assert_one_line(run.stderr, library, extra)

@@ -177,9 +177,9 @@ def test_a_suite_with_objectives(tmp_path: Path, capsys: Capture) -> None:
 
 def test_a_run_of_a_suite_that_no_search_can_do_is_left_out(capsys: Capture) -> None:
     options = ["--suite", "paper", "--domain", "av", "--problem", "p1", "--objective", "neutral", "deadline 25"]
-    assert main(["compare", *options, "--solver", "plan", "--quiet"]) == 0
+    assert main(["compare", *options, "--solver", "state", "--search", "weighted", "--quiet"]) == 0
     captured = capsys.readouterr()
-    assert "left out: plan" in captured.err
+    assert "left out: state/weighted" in captured.err
     assert "the objective 'deadline 25' does not have" in captured.err
     assert captured.out.count("av,p1,neutral") == 1
     assert "deadline" not in captured.out
