@@ -27,10 +27,13 @@ from statehtn.risk import (
     AdditiveObjective,
     Attitude,
     AttitudeName,
+    Exponentials,
     Keep,
+    MeanDeviation,
     Neutral,
     Objective,
     ObjectiveLike,
+    OneSwitch,
     objective,
     problem_class,
     utility_for,
@@ -38,6 +41,8 @@ from statehtn.risk import (
 
 DEFAULT_WEIGHT = 2.0
 DEFAULT_PRECISION = 1e-6
+PRECISION_OF_SUMS = 1e-9
+"""Where a way to a node is a few sums: they are exact, so that plans that are nearly as good can be told apart."""
 MOST_PLANS = 1_000_000_000
 KeepLike = Keep | str
 """A budget and the probability with which it is to be kept, or its text form, such as `25 0.95`."""
@@ -104,7 +109,7 @@ class Settings:
             raise UsageError(f"the weight must be a finite number and at least 1, found {weight:g}")
         heuristic = heuristic or heuristics_for(solver, search, wanted, kept)[0]
         how = solver, heuristic, search, weight, branch or "fewest", left_out
-        return Settings(wanted, *how, kept, precision_of(precision))
+        return Settings(wanted, *how, kept, precision_of(precision, wanted, kept))
 
     @property
     def needs_labels(self) -> bool:
@@ -165,7 +170,8 @@ class TopSettings:
         if isinstance(heuristic, str) and heuristic in HEURISTICS and heuristic not in takes:
             raise UsageError(misleads(heuristic, "the search for the best plans"))
         one_of(heuristic, ADMISSIBLE, "heuristic for the best plans")
-        return TopSettings(objective_of(objective), k, distinct, heuristic, keeps(keep), precision_of(precision))
+        wanted, kept = objective_of(objective), keeps(keep)
+        return TopSettings(wanted, k, distinct, heuristic, kept, precision_of(precision, wanted, kept))
 
     @property
     def needs_labels(self) -> bool:
@@ -211,13 +217,16 @@ def keeps(given: KeepLike | Iterable[KeepLike]) -> tuple[Keep, ...]:
     return tuple(dict.fromkeys(map(Keep.of, listed)))
 
 
-def precision_of(given: float | None) -> float:
+def precision_of(given: float | None, wanted: Objective, keep: Sequence[Keep] = ()) -> float:
     """Return how far from the optimum a plan may be that counts as optimal, as a part of max(1, value).
 
     Raises:
         UsageError: it is no such number.
     """
-    value = DEFAULT_PRECISION if given is None else number(given, "the precision")
+    if given is None:
+        are_sums = isinstance(wanted, OneSwitch | Exponentials | MeanDeviation) and not keep
+        return PRECISION_OF_SUMS if are_sums else DEFAULT_PRECISION
+    value = number(given, "the precision")
     if not 0 < value < 1:
         raise UsageError(f"the precision must be between 0 and 1, such as 1e-6, found {value:g}")
     return value

@@ -6,7 +6,7 @@ import argparse
 
 from statehtn.errors import UsageError
 from statehtn.risk import Attitude, Objective, Utility, utility_for
-from statehtn.settings import DEFAULT_PRECISION, objective_of
+from statehtn.settings import DEFAULT_PRECISION, PRECISION_OF_SUMS, objective_of
 
 
 def add_inputs(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +54,8 @@ def add_keep(agent: argparse._ActionsContainer) -> None:
         "--precision",
         type=float,
         metavar="P",
-        help=f"how close to the best counts as optimal, where prices do not add up: default {DEFAULT_PRECISION:g}",
+        help=f"how close to the best counts as optimal, where prices do not add up; default: {DEFAULT_PRECISION:g} "
+        f"(one-switch, exponentials, mean-deviation: {PRECISION_OF_SUMS:g})",
     )
 
 
