@@ -75,4 +75,5 @@ def test_a_public_value_has_a_docstring_below_it(name: str) -> None:
                 case ast.Assign(targets=[ast.Name(id=target)]) | ast.AnnAssign(target=ast.Name(id=target)):
                     if target == name and isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
                         documented.append(is_sentence(inspect.cleandoc(str(below.value.value))))
-    assert documented == [True]
+    assert documented  # another module may have a value of the same name
+    assert all(documented)
