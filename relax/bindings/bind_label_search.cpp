@@ -13,21 +13,20 @@
 #include "python_limits.hpp"
 #include "relax/analysis/analysed_problem.hpp"
 #include "relax/search/label_search.hpp"
+#include "relax/search/plan_based.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
 
 namespace {
 
-relax::LabelSearchResult label_search(const relax::AnalysedProblem& problem, relax::Valuation& valuation,
-                                      std::vector<std::optional<relax::ActionName>> names,
-                                      const relax::LabelSearchOptions& options, std::optional<double> seconds,
-                                      std::optional<std::size_t> memory_bytes, std::optional<std::uint64_t> steps,
-                                      const nb::object& progress) {
-    if (names.size() != problem.action_count()) {
-        throw std::invalid_argument("there must be one name, or none, for each action");
-    }
-    if (!options.heuristic->is_admissible) {
+// Run one of the searches by a valuation.
+template <typename Search>
+relax::LabelSearchResult run(const relax::AnalysedProblem& problem, const relax::Valuation& valuation,
+                             const relax::HeuristicInfo& heuristic, std::optional<double> seconds,
+                             std::optional<std::size_t> memory_bytes, std::optional<std::uint64_t> steps,
+                             const nb::object& progress, Search search) {
+    if (!heuristic.is_admissible) {
         throw std::invalid_argument("the heuristic must be admissible");
     }
     for (const relax::PricedProblem* const priced : valuation.prices()) {
@@ -42,7 +41,31 @@ relax::LabelSearchResult label_search(const relax::AnalysedProblem& problem, rel
     }
     relax::Limits limits = python_limits(seconds, memory_bytes, steps, std::move(watch));
     const nb::gil_scoped_release no_gil;
-    return relax::label_search(problem, valuation, std::move(names), options, limits, statistics);
+    return search(limits, statistics);
+}
+
+relax::LabelSearchResult label_search(const relax::AnalysedProblem& problem, relax::Valuation& valuation,
+                                      const std::vector<std::optional<relax::ActionName>>& names,
+                                      const relax::LabelSearchOptions& options, std::optional<double> seconds,
+                                      std::optional<std::size_t> memory_bytes, std::optional<std::uint64_t> steps,
+                                      const nb::object& progress) {
+    if (names.size() != problem.action_count()) {
+        throw std::invalid_argument("there must be one name, or none, for each action");
+    }
+    return run(problem, valuation, *options.heuristic, seconds, memory_bytes, steps, progress,
+               [&](relax::Limits& limits, relax::LabelStatistics& statistics) {
+                   return relax::label_search(problem, valuation, names, options, limits, statistics);
+               });
+}
+
+relax::LabelSearchResult plan_based_search(const relax::AnalysedProblem& problem, relax::Valuation& valuation,
+                                           const relax::PlanBasedOptions& options, std::optional<double> seconds,
+                                           std::optional<std::size_t> memory_bytes, std::optional<std::uint64_t> steps,
+                                           const nb::object& progress) {
+    return run(problem, valuation, *options.heuristic, seconds, memory_bytes, steps, progress,
+               [&](relax::Limits& limits, relax::LabelStatistics& statistics) {
+                   return relax::plan_based_search(problem, valuation, options, limits, statistics);
+               });
 }
 
 }  // namespace
@@ -60,6 +83,9 @@ void bind_label_search(nb::module_& module) {
         .def_ro("worths", &relax::LabelSearchResult::worths);
 
     module.def("label_search", &label_search, "problem"_a, "valuation"_a, "names"_a, "options"_a,
+               "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(), "steps"_a = nb::none(),
+               "progress"_a = nb::none());
+    module.def("plan_based_search", &plan_based_search, "problem"_a, "valuation"_a, "options"_a,
                "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(), "steps"_a = nb::none(),
                "progress"_a = nb::none());
 }

@@ -88,6 +88,7 @@ void bind_search_options(nb::module_& module) {
     auto plan_based = nb::class_<relax::PlanBasedOptions>(module, "PlanBasedOptions")
                           .def(nb::init<>())
                           .def_rw("upper_bound", &relax::PlanBasedOptions::upper_bound)
+                          .def_rw("tolerance", &relax::PlanBasedOptions::tolerance)
                           .def_rw("branches_over_all", &relax::PlanBasedOptions::branches_over_all)
                           .def_rw("checks_preconditions", &relax::PlanBasedOptions::checks_preconditions);
     def_heuristic(plan_based);

@@ -1,7 +1,6 @@
 #include "relax/search/label_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "relax/search/plan_trace.hpp"
@@ -14,17 +13,11 @@ namespace {
 constexpr std::uint64_t kWorkOfALabel = 200;
 constexpr std::uint64_t kWorkOfAModel = 100;  // for each action and method
 
-// By ActionId: actions that certainly cost nothing, and may be executed at once: between sequences, where order makes a
+// By ActionId: actions that certainly cost nothing may be executed at once; between sequences, where order makes a
 // difference, those without a name.
-std::vector<bool> free_actions(std::span<const PricedProblem* const> prices,
-                               std::span<const std::optional<ActionName>> names, const LabelSearchOptions& options) {
-    std::vector<bool> is_free(names.size(), true);
-    for (const PricedProblem* const priced : prices) {
-        const std::vector<bool> costs_nothing = priced->free_actions();
-        for (std::size_t action = 0; action < names.size(); ++action) {
-            is_free[action] = is_free[action] && costs_nothing[action];
-        }
-    }
+std::vector<bool> free_actions(const Valuation& valuation, std::span<const std::optional<ActionName>> names,
+                               const LabelSearchOptions& options) {
+    std::vector<bool> is_free = valuation.free_actions();
     for (std::size_t action = 0; action < names.size(); ++action) {
         is_free[action] = is_free[action] && (!options.tells_sequences() || !names[action]);
     }
@@ -41,30 +34,31 @@ ProgressionOptions allowed(const LabelSearchOptions& options) {
 }  // namespace
 
 LabelSearch::LabelSearch(const AnalysedProblem& problem, Valuation& valuation,
-                         std::vector<std::optional<ActionName>> names, const LabelSearchOptions& options,
-                         Limits& limits, LabelStatistics& statistics)
+                         std::span<const std::optional<ActionName>> names, const LabelSearchOptions& options,
+                         Progression& progression, Limits& limits, LabelStatistics& statistics)
     : problem_(problem),
       valuation_(valuation),
-      names_(std::move(names)),
+      names_(names),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      progression_(problem, free_actions(valuation.prices(), names_, options), allowed(options), limits),
+      progression_(progression),
       labels_(valuation, options.count, options.limits_labels),
       cutoff_(std::min(valuation.most(), options.upper_bound.value_or(kNoWorth))) {
     for (const PricedProblem* const priced : valuation_.prices()) {
         bounds_.emplace_back(progression_.networks(), priced->task_bounds(limits_));
     }
-    valuation_.begin(progression_.networks(), limits_);
     valuation_.set_cutoff(cutoff_);
 }
 
 LabelSearchResult label_search(const AnalysedProblem& problem, Valuation& valuation,
-                               std::vector<std::optional<ActionName>> names, const LabelSearchOptions& options,
+                               std::span<const std::optional<ActionName>> names, const LabelSearchOptions& options,
                                Limits& limits, LabelStatistics& statistics) {
     LabelSearchResult result;
     const auto stop = run_within_limits([&]() -> std::optional<StopReason> {
-        result = LabelSearch(problem, valuation, std::move(names), options, limits, statistics).run();
+        Progression progression(problem, free_actions(valuation, names, options), allowed(options), limits);
+        valuation.begin(progression.networks(), limits);
+        result = LabelSearch(problem, valuation, names, options, progression, limits, statistics).run();
         return result.stop;
     });
     result.stop = stop;
@@ -77,7 +71,7 @@ LabelSearchResult LabelSearch::run() {
         result.is_all = true;
         return result;
     }
-    result.stop = run_within_limits([this] { return search(); });
+    result.stop = run_within_limits([this] { return search(progression_.initial_network()); });
     const Limits::Grace grace(limits_);
     const bool is_complete =
         plans_.size() < options_.count ? !has_left_out_ : open_.is_empty() && !has_pruned_ && !labels_.has_pruned();
@@ -89,7 +83,8 @@ LabelSearchResult LabelSearch::run() {
         note_proven(cutoff_);
     }
     for (const LabelId goal : plans_) {
-        SearchResult plan = trace(goal);
+        SearchResult plan;
+        trace_steps(*valuation_.prices().front(), progression_, steps_to(goal), limits_, plan);
         if (!plan.cost) {
             result.stop = result.stop ? result.stop : plan.stop;
             result.is_all = false;
@@ -106,8 +101,8 @@ LabelSearchResult LabelSearch::run() {
 }
 
 // Search until no open label leads to a plan that is wanted. Says why it was stopped before that.
-std::optional<StopReason> LabelSearch::search() {
-    const NodeId root = labels_.find_node(progression_.initial_state(), progression_.initial_network());
+std::optional<StopReason> LabelSearch::search(NetworkId from) {
+    const NodeId root = labels_.find_node(progression_.initial_state(), from);
     for (std::size_t price = 0; price < bounds_.size(); ++price) {
         labels_.node(root).least[price] = options_.tdg_bound ? bounds_[price][labels_.node(root).network] : 0;
     }
@@ -290,19 +285,10 @@ void LabelSearch::add_plan(LabelId id) {
     statistics_.found = plans_.size();
     statistics_.best = labels_[plans_.front()].bound;
     if (plans_.size() == options_.count) {
-        cutoff_ = std::min(cutoff_, better_than(labels_[plans_.back()].bound));
+        cutoff_ = std::min(cutoff_, better_than(labels_[plans_.back()].bound, options_.tolerance));
         valuation_.set_cutoff(cutoff_);
     }
     count_proven();
-}
-
-// Besides a plan of this worth those are wanted that are worth less than what is returned.
-Worth LabelSearch::better_than(Worth worth) const {
-    if (options_.tolerance == 0) {
-        return worth;
-    }
-    const double value = value_of(worth);
-    return order_of(value - options_.tolerance * std::max(1.0, std::abs(value)));
 }
 
 // Every plan that is worth less than `bound` has been found.
@@ -333,15 +319,20 @@ void LabelSearch::push(LabelId id) {
     open_.push(id, label.bound, tie_break, progression_.networks().size(labels_.node(label.node).network));
 }
 
-SearchResult LabelSearch::trace(LabelId goal) {
+std::vector<SearchStep> LabelSearch::steps_to(LabelId goal) const {
     std::vector<SearchStep> steps;
     for (LabelId id = goal; labels_[id].parent != id; id = labels_[id].parent) {
         steps.push_back(labels_[id].step);
     }
     std::reverse(steps.begin(), steps.end());
-    SearchResult result;
-    trace_steps(*valuation_.prices().front(), progression_, steps, limits_, result);
-    return result;
+    return steps;
+}
+
+std::optional<LabelSearch::Way> LabelSearch::best() const {
+    if (plans_.empty()) {
+        return std::nullopt;
+    }
+    return Way{labels_[plans_.front()].bound, steps_to(plans_.front())};
 }
 
 }  // namespace relax

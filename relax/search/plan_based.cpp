@@ -1,9 +1,10 @@
 #include "relax/search/plan_based.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
-#include "relax/analysis/tdg_bound.hpp"
+#include "relax/search/label_search.hpp"
 #include "relax/search/plan_trace.hpp"
 
 namespace relax {
@@ -21,33 +22,48 @@ std::vector<bool> find_choices(const GroundProblem& problem) {
     return is_choice;
 }
 
-// By TaskId: what a task adds to f; of a compound one nothing where the heuristic is blind.
-std::vector<Cost> make_bounds(const PricedProblem& priced, const std::vector<bool>& is_choice,
-                              const HeuristicInfo& heuristic, Limits& limits) {
-    std::vector<Cost> bounds = priced.task_bounds(limits);
-    for (const TaskId task : priced.problem.compounds()) {
-        if (heuristic.is_blind && !is_choice[task]) {
-            bounds[task] = 0;
+// By price and TaskId: what a task adds to f; of a compound one nothing where the heuristic is blind.
+std::vector<std::vector<Cost>> make_bounds(const Valuation& valuation, const std::vector<bool>& is_choice,
+                                           const HeuristicInfo& heuristic, Limits& limits) {
+    std::vector<std::vector<Cost>> bounds;
+    for (const PricedProblem* const priced : valuation.prices()) {
+        bounds.push_back(priced->task_bounds(limits));
+        for (const TaskId task : priced->problem.compounds()) {
+            if (heuristic.is_blind && !is_choice[task]) {
+                bounds.back()[task] = 0;
+            }
         }
+    }
+    return bounds;
+}
+
+std::vector<NetworkBounds> make_network_bounds(const TaskNetworks& networks,
+                                               const std::vector<std::vector<Cost>>& task_bounds) {
+    std::vector<NetworkBounds> bounds;
+    for (const std::vector<Cost>& of_tasks : task_bounds) {
+        bounds.emplace_back(networks, of_tasks);
     }
     return bounds;
 }
 
 }  // namespace
 
-PlanBased::PlanBased(const PricedProblem& priced, const PlanBasedOptions& options, Limits& limits,
-                     SearchStatistics& statistics)
-    : priced_(priced),
-      problem_(priced.problem),
+PlanBased::PlanBased(const AnalysedProblem& problem, Valuation& valuation, const PlanBasedOptions& options,
+                     Limits& limits, SearchStatistics& statistics)
+    : problem_(problem),
+      valuation_(valuation),
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      is_choice_(find_choices(priced.problem)),
-      task_bounds_(make_bounds(priced, is_choice_, *options.heuristic, limits)),
-      progression_(priced.problem, priced.free_actions(), ProgressionOptions{}, limits),
-      bounds_(progression_.networks(), task_bounds_),
-      linearisation_(priced, progression_, bounds_, limits),
-      open_preconditions_(priced.problem, limits) {}
+      is_choice_(find_choices(problem)),
+      task_bounds_(make_bounds(valuation, is_choice_, *options.heuristic, limits)),
+      progression_(problem, valuation.free_actions(), ProgressionOptions{}, limits),
+      bounds_(make_network_bounds(progression_.networks(), task_bounds_)),
+      linearisation_(*valuation.prices().front(), progression_, bounds_.front(), limits),
+      open_preconditions_(problem, limits) {
+    valuation_.begin(progression_.networks(), limits_);
+    valuation_.set_cutoff(cutoff());
+}
 
 SearchResult PlanBased::run() {
     SearchResult result;
@@ -61,18 +77,18 @@ SearchResult PlanBased::run() {
         trace(result);
     }
     if (result.cost) {
-        statistics_.best = result.cost;
+        statistics_.best = solution_->worth;
         if (!stop) {
-            statistics_.lower_bound = result.cost;
+            statistics_.lower_bound = cutoff();
         }
         result.status = stop ? SearchStatus::Solved : SearchStatus::Optimal;
     } else if (result.stop) {
         result.status = status_of(*result.stop);
         if (solution_) {
-            statistics_.lower_bound = std::min(statistics_.lower_bound.value_or(0), solution_->cost);
+            statistics_.lower_bound = std::min(statistics_.lower_bound.value_or(solution_->worth), solution_->worth);
         }
     } else if ((has_overflowed_ || linearisation_.has_overflowed()) && !options_.upper_bound) {
-        statistics_.lower_bound = kMostCost;
+        statistics_.lower_bound = valuation_.most();
         result.status = SearchStatus::GaveUp;
     } else {
         statistics_.lower_bound.reset();
@@ -90,7 +106,7 @@ std::optional<StopReason> PlanBased::search() {
             return stop;
         }
         statistics_.lower_bound = open_.top().priority;
-        if (solution_ && solution_->cost <= open_.top().priority) {
+        if (solution_ && cutoff() <= open_.top().priority) {
             return std::nullopt;
         }
         const NodeId here = open_.pop().id;  // 9
@@ -142,18 +158,18 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
     if (is_known_[network]) {  // 20
         return;
     }
-    is_known_[network] = true;        // 22
-    const Cost f = bounds_[network];  // 14 to 19
+    is_known_[network] = true;       // 22
+    const Worth f = bound(network);  // 14 to 19
     look_at(network);
     Cost h = 0;
     for (const Occurrence& occurrence : compounds_) {
-        h = add_bounds(h, task_bounds_[occurrence.task]);
+        h = add_bounds(h, task_bounds_.front()[occurrence.task]);
     }
-    if (h >= kInfinity || (options_.checks_preconditions && !open_preconditions_.can_be_met(tasks_))) {
+    if (h >= kInfinity || f == kNoWorth || (options_.checks_preconditions && !open_preconditions_.can_be_met(tasks_))) {
         ++statistics_.dead_ends;
         return;
     }
-    if (f >= kMostCost) {
+    if (f >= valuation_.most()) {
         has_overflowed_ = true;
         return;
     }
@@ -165,21 +181,83 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
     nodes_.push_back({network, parent, step});
 }
 
-// Look for the cheapest order in which the primitive network can be executed. Where it costs more than f, which was a
+// A lower bound of what plans of the network are worth: none of its tasks has been executed.
+Worth PlanBased::bound(NetworkId network) {
+    least_.clear();
+    for (NetworkBounds& bounds : bounds_) {
+        least_.push_back(bounds[network]);
+    }
+    Worth bound = std::numeric_limits<Worth>::min();
+    for (std::uint32_t stage = 0; stage < valuation_.stages(); ++stage) {
+        bound = std::max(bound, valuation_.bound(valuation_.start(), {network, least_}, stage));
+    }
+    return bound;
+}
+
+// Plans are wanted that are worth less.
+Worth PlanBased::cutoff() const {
+    return solution_ ? better_than(solution_->worth, options_.tolerance) : options_.upper_bound.value_or(kNoWorth);
+}
+
+// Look for the best order in which the primitive network can be executed. Where it is worth more than f, which was a
 // lower bound then, something else that is open may be better.
 std::optional<StopReason> PlanBased::execute(NodeId node) {
     ++statistics_.evaluated;
     std::optional<StopReason> stop;
     auto order = linearisation_.find(nodes_[node].network, stop);
-    if (order) {
-        if (order->cost < (solution_ ? solution_->cost : options_.upper_bound.value_or(kInfinity))) {
-            solution_ = {node, order->cost, std::move(order->steps)};
-            statistics_.best = solution_->cost;
+    if (!order) {
+        statistics_.dead_ends += stop ? 0 : 1;
+        return stop;
+    }
+    return find_best_order(node, std::move(*order));
+}
+
+// The order that was found is the cheapest at the first prices; it is the best one where a label is no more than that.
+std::optional<StopReason> PlanBased::find_best_order(NodeId node, Linearisation::Order order) {
+    LabelSearch::Way best{order.cost, std::move(order.steps)};
+    std::optional<StopReason> stop;
+    if (!valuation_.is_total_order()) {
+        const std::vector<std::optional<ActionName>> no_names(problem_.action_count());
+        LabelSearchOptions options;
+        options.upper_bound = cutoff();
+        options.tolerance = options_.tolerance;
+        LabelStatistics statistics;
+        LabelSearch search(problem_, valuation_, no_names, options, progression_, limits_, statistics);
+        stop = search.search(nodes_[node].network);
+        auto found = search.best();
+        if (!found) {
+            return stop;
         }
-    } else if (!stop) {
-        ++statistics_.dead_ends;
+        best = std::move(*found);
+    }
+    if (best.worth < cutoff()) {
+        solution_ = {node, best.worth, std::move(best.steps)};
+        statistics_.best = solution_->worth;
+        valuation_.set_cutoff(cutoff());
     }
     return stop;
+}
+
+LabelSearchResult plan_based_search(const AnalysedProblem& problem, Valuation& valuation,
+                                    const PlanBasedOptions& options, Limits& limits, LabelStatistics& statistics) {
+    LabelSearchResult result;
+    SearchResult found;
+    const auto stop = run_within_limits([&]() -> std::optional<StopReason> {
+        found = PlanBased(problem, valuation, options, limits, statistics).run();
+        return found.stop;
+    });
+    result.stop = stop;
+    result.is_all = !stop && found.status == SearchStatus::Unsolvable && !options.upper_bound;
+    result.statistics = statistics;
+    if (!result.stop && found.status == SearchStatus::Unsolvable && options.upper_bound) {
+        result.statistics.lower_bound = options.upper_bound;
+    }
+    if (found.cost) {
+        result.statistics.found = 1;
+        result.worths.push_back(*statistics.best);
+        result.plans.push_back(std::move(found));
+    }
+    return result;
 }
 
 void PlanBased::trace(SearchResult& result) {
@@ -189,7 +267,7 @@ void PlanBased::trace(SearchResult& result) {
     }
     std::reverse(steps.begin(), steps.end());
     steps.insert(steps.end(), solution_->order.begin(), solution_->order.end());
-    trace_steps(priced_, progression_, steps, limits_, result);
+    trace_steps(*valuation_.prices().front(), progression_, steps, limits_, result);
 }
 
 }  // namespace relax

@@ -7,6 +7,7 @@
 #include "relax/search/greedy_search.hpp"
 #include "relax/search/plan_based.hpp"
 #include "relax/search/portfolio.hpp"
+#include "relax/valuations/price_sums.hpp"
 
 namespace relax {
 
@@ -29,7 +30,8 @@ SearchResult run(const PricedProblem& priced, const GreedyOptions& options, Limi
 
 SearchResult run(const PricedProblem& priced, const PlanBasedOptions& options, Limits& limits,
                  SearchStatistics& statistics) {
-    return PlanBased(priced, options, limits, statistics).run();
+    PriceSums sums(priced);
+    return PlanBased(priced.problem, sums, options, limits, statistics).run();
 }
 
 SearchResult run(const PricedProblem& priced, const PortfolioOptions& options, Limits& limits,

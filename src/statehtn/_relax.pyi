@@ -276,6 +276,10 @@ class PlanBasedOptions:
     @upper_bound.setter
     def upper_bound(self, arg: int | None, /) -> None: ...
     @property
+    def tolerance(self) -> float: ...
+    @tolerance.setter
+    def tolerance(self, arg: float, /) -> None: ...
+    @property
     def branches_over_all(self) -> bool: ...
     @branches_over_all.setter
     def branches_over_all(self, arg: bool, /) -> None: ...
@@ -610,6 +614,15 @@ def label_search(
     valuation: Valuation,
     names: Sequence[int | None],
     options: LabelSearchOptions,
+    seconds: float | None = None,
+    memory_bytes: int | None = None,
+    steps: int | None = None,
+    progress: object | None = None,
+) -> LabelSearchResult: ...
+def plan_based_search(
+    problem: GroundProblem,
+    valuation: Valuation,
+    options: PlanBasedOptions,
     seconds: float | None = None,
     memory_bytes: int | None = None,
     steps: int | None = None,

@@ -68,7 +68,7 @@ def mismatch(
     if without and solver != "state":
         return f"the solver '{solver}' has none of the refinements of 'state', found '{'+'.join(without)}'"
     by_labels = search != "greedy" and not _is_found_by_prices(wanted, keep)
-    if not prices_add_up(wanted, keep) and (reason := _needs_prices(solver, search, wanted, keep)):
+    if not prices_add_up(wanted, keep) and (reason := _needs_prices(search, wanted, keep)):
         return reason
     has = LABEL_SWITCHES if by_labels else PRICE_SWITCHES
     if lacking := [name for name in without if name in SWITCHES and name not in has]:
@@ -103,17 +103,16 @@ def heuristics_for(
     """Return the heuristics that a search of a solver takes for an objective, first its own."""
     if search == "greedy" or _is_found_by_prices(wanted, keep):
         return TAKES[solver, search]
-    return TAKES["state", "top"]  # it finds one plan as it finds the k best
+    # The solver `state` finds one plan as it finds the k best, and the bounds of `plan` are those of its labels.
+    return TAKES["state", "top"] if solver == "state" else ("tdg",)
 
 
-def _needs_prices(solver: str, search: str, wanted: Objective, keep: Sequence[Keep]) -> str | None:
+def _needs_prices(search: str, wanted: Objective, keep: Sequence[Keep]) -> str | None:
     """Say why a search does not take an objective, or a budget to keep, under which no prices add up; None if it does.
 
     Greedy search goes by the mean, and values what it finds; the first plan that it finds may keep no budget.
     """
     what = "a budget to keep (--keep)" if keep else f"the objective '{wanted}'"
-    if solver == "plan" and not _is_found_by_prices(wanted, keep):
-        return f"the solver 'plan' adds up prices of actions, which {what} does not have; take the solver 'state'"
     if search == "weighted":
         return f"the weighted search adds up prices of actions, which {what} does not have; take astar or anytime"
     if search == "greedy" and keep:

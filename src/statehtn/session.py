@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from statehtn.core.grounding import Grounding, ground
 from statehtn.core.label_search import search_labels
-from statehtn.core.plan_based import search_networks
+from statehtn.core.plan_based import search_networks, search_networks_by_labels
 from statehtn.core.pricing import PricedProblem, price
 from statehtn.core.progress import Progress, TopProgress
 from statehtn.core.search import improving_plans
@@ -84,14 +85,20 @@ class Session:
         """Read, ground and price the problem, and return the search for a plan, which begins with its first outcome."""
         if settings.search == "greedy" and settings.needs_labels:
             return map(_by_the_mean, self.search(replace(settings, objective=Neutral()), limits, meter, progress))
+        if settings.needs_labels and settings.solver == "plan":
+            how = partial(search_networks_by_labels, branch=settings.branch)
+            return self._by_labels(how, settings, limits, meter, progress)
         if settings.needs_labels:
-            return self._search_labels(settings, limits, meter, progress, switches=settings.label_switches)
+            takes = TAKES["state", "top"]
+            heuristic = settings.heuristic if settings.heuristic in takes else takes[0]
+            how = partial(search_labels, heuristic=heuristic, switches=settings.label_switches)
+            return self._by_labels(how, settings, limits, meter, progress)
         problem = self.price(settings.prices, limits, meter)
         if settings.solver == "plan":
             heuristic, branch = settings.heuristic, settings.branch
             return search_networks(problem, heuristic=heuristic, branch=branch, limits=limits, progress=progress)
-        how = settings.heuristic, settings.search, settings.weight
-        return improving_plans(problem, *how, limits, progress, settings.switches)
+        by = settings.heuristic, settings.search, settings.weight
+        return improving_plans(problem, *by, limits, progress, settings.switches)
 
     def search_top(
         self, settings: TopSettings, limits: Limits, meter: Meter, progress: TopProgressCallback | None
@@ -99,27 +106,24 @@ class Session:
         """Read, ground and price the problem, and return the search for the best plans."""
         k, distinct, heuristic = settings.k, settings.distinct, settings.heuristic
         if settings.needs_labels:
-            return self._search_labels(settings, limits, meter, progress, k=k, distinct=distinct)
+            how = partial(search_labels, k=k, distinct=distinct, heuristic=heuristic)
+            return self._by_labels(how, settings, limits, meter, progress)
         problem = self.price(settings.prices, limits, meter)
         found = find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
         return iter((found,))
 
-    def _search_labels(
-        self, settings: Settings | TopSettings, limits: Limits, meter: Meter, progress: Any, **options: Any
+    def _by_labels(
+        self,
+        search: Callable[..., Iterator[SearchOutcome]],
+        settings: Settings | TopSettings,
+        limits: Limits,
+        meter: Meter,
+        progress: Any,
     ) -> Iterator[SearchOutcome]:
         grounding = self.ground(limits, meter)
-        takes = TAKES["state", "top"]
+        what = {"keep": settings.keep, "precision": settings.precision}
         with meter.timed("search"):
-            return search_labels(
-                grounding,
-                settings.objective,
-                keep=settings.keep,
-                heuristic=settings.heuristic if settings.heuristic in takes else takes[0],
-                precision=settings.precision,
-                limits=limits,
-                progress=progress,
-                **options,
-            )
+            return search(grounding, settings.objective, **what, limits=limits, progress=progress)
 
 
 def _by_the_mean(outcome: SearchOutcome) -> SearchOutcome:

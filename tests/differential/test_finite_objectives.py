@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from statehtn import Problem, Status, objective, validate
 from statehtn.core.finite_labels import SWITCHES
 from statehtn.core.grounding import ground
-from statehtn.core.label_search import PRECISION, search_labels
+from statehtn.core.label_run import PRECISION
+from statehtn.core.label_search import search_labels
 from statehtn.core.search import last_of
 from statehtn.core.switches import LabelSwitches
 from statehtn.model.cost.scenario_cost import total_of

@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 
 from statehtn import Status
 from statehtn.core.grounding import ground
-from statehtn.core.label_search import PRECISION, search_labels
+from statehtn.core.label_run import PRECISION
+from statehtn.core.label_search import search_labels
+from statehtn.core.plan_based import search_networks_by_labels
 from statehtn.core.search import find_plans, last_of
 from statehtn.core.switches import LabelSwitches
 from statehtn.model import Problem
@@ -16,13 +18,19 @@ from statehtn.risk import Utility
 from tests.differential.oracles import LIMITS, must_cost, must_have_ended
 from tests.strategies import problems, utilities
 
+SWITCHES = (None, "inherit_h", "tdg_bound", "selective", "networks")
 
-@given(problem=problems(), utility=utilities(), left_out=st.sampled_from([None, "inherit_h", "tdg_bound"]))
-def test_one_price(problem: Problem, utility: Utility, left_out: str | None) -> None:
+
+@given(problem=problems(), utility=utilities(), variant=st.sampled_from(SWITCHES))
+def test_one_price(problem: Problem, utility: Utility, variant: str | None) -> None:
+    """Without one refinement, and by the plan-based solver."""
     grounding = ground(problem)
     expected = find_plans(grounding, utility, limits=LIMITS)
-    switches = LabelSwitches(**({left_out: False} if left_out else {}))
-    found = last_of(search_labels(grounding, utility, limits=LIMITS, switches=switches))
+    if variant == "networks":
+        found = last_of(search_networks_by_labels(grounding, utility, limits=LIMITS))
+    else:
+        switches = LabelSwitches(**({variant: False} if variant else {}))
+        found = last_of(search_labels(grounding, utility, limits=LIMITS, switches=switches))
     must_have_ended(expected.stopped)
     must_have_ended(found.stopped)
     assert found.status is expected.status

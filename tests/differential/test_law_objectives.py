@@ -14,7 +14,8 @@ import statehtn._relax as _relax
 from statehtn import Problem, Status, validate
 from statehtn.core import law_grid
 from statehtn.core.grounding import ground
-from statehtn.core.label_search import PRECISION, search_labels
+from statehtn.core.label_run import PRECISION
+from statehtn.core.label_search import search_labels
 from statehtn.core.law_labels import LawLabels
 from statehtn.core.search_run import SearchOutcome
 from statehtn.core.switches import LabelSwitches, LawSwitches, TopSwitches

@@ -17,6 +17,8 @@ from statehtn.limits import LimitReached, Limits
 from statehtn.model.status import Status
 from statehtn.risk.keep import Keep
 
+PRECISION = 1e-6
+"""How much of its value, or of 1 if that is more, a plan that is called optimal may be worse than the best."""
 Key = tuple[int, ...]
 """What no two plans have in common: their actions, in the order of their execution or sorted."""
 
@@ -45,6 +47,9 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         limits: they hold for all searches together.
         progress: is called while a search goes on.
     """
+
+    is_supported = True
+    """Whether searches with a single price for each action come first."""
 
     def __init__(
         self,
@@ -96,7 +101,7 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
 
     def _stages(self) -> Iterator[bool]:
         """Go through the stages; yield whether each has found a better plan."""
-        if self.options.count == 1:
+        if self.options.count == 1 and self.is_supported:
             for support in self.labels.support(self.limits):
                 self.effort += support.effort
                 self.stopped = support.stopped
@@ -113,12 +118,16 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         if self.options.count == 1 and self.plans:
             best = self.plans[0].value
             self.options.upper_bound = self.labels.worth_of(best - self._slack(best) / 2)
-        problem, valuation = self.grounding.handle, self.labels.valuation
-        result = _relax.label_search(problem, valuation, self.names, self.options, *self.limits.left(), self.watch)
+        result = self.run_core()
         self.take(result.statistics, result.stop)
         self.unread = len(result.plans) < result.statistics.found
         self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)
         return self._take_up(result.plans)
+
+    def run_core(self) -> _relax.LabelSearchResult:
+        """Run the search in the core on the present grid, with the present options."""
+        problem, valuation = self.grounding.handle, self.labels.valuation
+        return _relax.label_search(problem, valuation, self.names, self.options, *self.limits.left(), self.watch)
 
     def outcome(self) -> SearchOutcome:
         """Return how the searches ended together."""
@@ -174,3 +183,32 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
     def _key(self, trace: _relax.SearchResult) -> Key:
         own = [name for action in trace.actions if (name := self.names[action]) is not None]
         return tuple(own if self.options.distinct == _relax.Distinct.Sequence else sorted(own))
+
+
+class NetworkRun(LabelRun):
+    """The same by the plan-based solver (the paper's Algorithm 3), for one plan; no other search comes first.
+
+    Args:
+        plan_based: what the core is asked for.
+    """
+
+    is_supported = False
+
+    def __init__(
+        self,
+        grounding: Grounding,
+        labels: Labels,
+        plan_based: _relax.PlanBasedOptions,
+        keep: Sequence[Keep],
+        precision: float,
+        limits: Limits,
+        progress: Callable[[SearchProgress], None] | None,
+    ) -> None:
+        super().__init__(grounding, labels, _relax.LabelSearchOptions(), keep, precision, limits, progress)
+        self.plan_based = plan_based
+
+    def run_core(self) -> _relax.LabelSearchResult:
+        """Run the plan-based search in the core on the present grid."""
+        self.plan_based.upper_bound, self.plan_based.tolerance = self.options.upper_bound, self.options.tolerance
+        problem, valuation = self.grounding.handle, self.labels.valuation
+        return _relax.plan_based_search(problem, valuation, self.plan_based, *self.limits.left(), self.watch)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.label_run import LabelRun
+from statehtn.core.label_run import PRECISION, LabelRun
 from statehtn.core.progress import SearchProgress
 from statehtn.core.search_run import SearchOutcome
 from statehtn.core.switches import LabelSwitches, TopSwitches, set_switches
@@ -15,9 +15,6 @@ from statehtn.core.valuations import labels_of
 from statehtn.limits import Limits
 from statehtn.risk.keep import Keep
 from statehtn.risk.objective import Objective
-
-PRECISION = 1e-6
-"""How much of its value, or of 1 if that is more, a plan that is called optimal may be worse than the best."""
 
 
 def search_labels(

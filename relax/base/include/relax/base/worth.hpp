@@ -1,7 +1,9 @@
 #ifndef RELAX_BASE_WORTH_HPP
 #define RELAX_BASE_WORTH_HPP
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -22,6 +24,17 @@ inline Worth order_of(double value) {
 
 inline double value_of(Worth order) {
     return std::bit_cast<double>(order >= 0 ? order : std::numeric_limits<std::int64_t>::min() - order);
+}
+
+// Besides a plan of this worth, plans are wanted that are worth less than what is returned. Where worths are values,
+// plans that are better by less than `tolerance` are not asked for, in parts of the value, or of 1 if that is more:
+// bounds are rounded down, so that all ways to plans that are equally good would have to be followed.
+inline Worth better_than(Worth worth, double tolerance) {
+    if (tolerance == 0 || worth == kNoWorth) {
+        return worth;
+    }
+    const double value = value_of(worth);
+    return order_of(value - tolerance * std::max(1.0, std::abs(value)));
 }
 
 }  // namespace relax

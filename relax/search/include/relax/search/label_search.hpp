@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "relax/base/ids.hpp"
@@ -50,15 +51,25 @@ struct LabelSearchResult {
 // neither its own case nor that of another), but not where plans are sequences of actions that differ in their order.
 class LabelSearch {
 public:
-    // `names`: by ActionId. `statistics` is kept up to date for whoever watches from
-    // `limits.poll`. Throws Stopped.
-    LabelSearch(const AnalysedProblem& problem, Valuation& valuation, std::vector<std::optional<ActionName>> names,
-                const LabelSearchOptions& options, Limits& limits, LabelStatistics& statistics);
+    // `names`: by ActionId. The valuation has begun with the progression's networks. `statistics` is kept up to date
+    // for whoever watches from `limits.poll`. Throws Stopped.
+    LabelSearch(const AnalysedProblem& problem, Valuation& valuation, std::span<const std::optional<ActionName>> names,
+                const LabelSearchOptions& options, Progression& progression, Limits& limits,
+                LabelStatistics& statistics);
 
+    // Search from the initial network, and put together what was found.
     LabelSearchResult run();
 
+    struct Way {
+        Worth worth;
+        std::vector<SearchStep> steps;
+    };
+    // Search from the initial state and a network. Says why it was stopped; or throws Stopped.
+    std::optional<StopReason> search(NetworkId from);
+    // The best plan that was found, as the way to it.
+    std::optional<Way> best() const;
+
 private:
-    std::optional<StopReason> search();
     bool keeps_bound(LabelId id);
     bool asks_from_now_on();
     void ask(LabelSpace::Node& node);
@@ -69,20 +80,19 @@ private:
     void generate(LabelId parent, const Edge& edge);
     bool is_wanted(Worth bound);
     void add_plan(LabelId id);
-    Worth better_than(Worth worth) const;
     void note_proven(Worth bound);
     void count_proven();
     void push(LabelId id);
     ActionListId list_after(ActionListId before, std::optional<ActionId> action);
-    SearchResult trace(LabelId goal);
+    std::vector<SearchStep> steps_to(LabelId goal) const;
 
     const AnalysedProblem& problem_;
     Valuation& valuation_;
-    std::vector<std::optional<ActionName>> names_;
+    std::span<const std::optional<ActionName>> names_;
     LabelSearchOptions options_;
     Limits& limits_;
     LabelStatistics& statistics_;
-    Progression progression_;
+    Progression& progression_;
     std::vector<NetworkBounds> bounds_;           // by price
     std::vector<SelectiveHeuristic> heuristics_;  // by price, once they are asked
     ActionLists lists_;
@@ -98,7 +108,7 @@ private:
 
 // Make and run it; a limit that is reached while it is being made is a result, too.
 LabelSearchResult label_search(const AnalysedProblem& problem, Valuation& valuation,
-                               std::vector<std::optional<ActionName>> names, const LabelSearchOptions& options,
+                               std::span<const std::optional<ActionName>> names, const LabelSearchOptions& options,
                                Limits& limits, LabelStatistics& statistics);
 
 }  // namespace relax

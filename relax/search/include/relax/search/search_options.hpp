@@ -48,7 +48,8 @@ struct GreedyOptions : ProgressionSwitches {
 // Networks alone, without states: the heuristic has no model.
 struct PlanBasedOptions {
     const HeuristicInfo* heuristic = &heuristic_named("tdg");
-    std::optional<Cost> upper_bound;   // only plans that cost less are wanted
+    std::optional<Worth> upper_bound;  // only plans that are worth less are wanted
+    double tolerance = 0;              // see `better_than`
     bool branches_over_all = false;    // try every compound task of a network, not one
     bool checks_preconditions = true;  // leave out networks with a precondition that cannot be met
 };
@@ -71,9 +72,7 @@ struct LabelSearchOptions : ProgressionSwitches, BoundSwitches {     // stubborn
     Distinct distinct = Distinct::Sequence;                          // where several are
     const HeuristicInfo* heuristic = &heuristic_named("potential");  // admissible
     std::optional<Worth> upper_bound;                                // only plans that are worth less are wanted
-    // Where worths are values: plans that are better by less are not asked for, in parts of a value, or of 1 if that is
-    // more. Bounds are rounded down, so that all ways to plans that are equally good would have to be followed.
-    double tolerance = 0;
+    double tolerance = 0;                                            // see `better_than`
     bool selective = true;      // ask the heuristic rarely while it exceeds the cheap bounds rarely
     bool limits_labels = true;  // leave out labels where as many as plans are wanted are as good
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "relax/analysis/priced_problem.hpp"
 #include "relax/base/ids.hpp"
@@ -37,6 +38,8 @@ public:
     virtual std::span<const PricedProblem* const> prices() const = 0;
     // At so many of them, the first, a heuristic is worth its time; at the others bounds that come for nothing will do.
     virtual std::size_t asked() const { return prices().size(); }
+    // By ActionId: those that cost nothing at any of them, whatever the state is.
+    std::vector<bool> free_actions() const;
     // Before all that follows: the networks that the search will make. Throws Stopped.
     virtual void begin(const TaskNetworks& /*networks*/, Limits& /*limits*/) {}
 
