@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 
 import pytest
@@ -21,8 +22,13 @@ BUDGETS = {"av": (16.5, 18.35, 20), "marine": (32, 36.4, 38), "satellite": (215,
 ANY_BUDGET = (
     *("neutral", "averse 0.1", "averse 0.9", "seeking 0.1", "seeking 0.9", "mean-variance 0.01", "mean-variance 0.5"),
     *("mean-deviation 0.2", "mean-deviation 2", "exponentials linear=1 0.1:0.5 0.2:0.001", "evar 0.5", "evar 0.95"),
+    *("quantile 0.5", "quantile 0.9", "quantile 0.99", "cvar 0.5", "cvar 0.95", "mean-cvar 0.9 0.25"),
 )
 OF_A_BUDGET = (
+    "deadline {0}",
+    "overrun {0}",
+    "piecewise 0:0 {0}:0 {1}:-1",
+    "piecewise 0:0 {0}:-1 {1}:-4",
     "one-switch alpha=0.9 tradeoff=20 wealth={0}",
     "one-switch alpha=0.05 tradeoff=1 wealth={1}",
 )
@@ -68,7 +74,20 @@ def test_the_plan_is_the_best_of_all(domain: str, text: str) -> None:
     check(statehtn.plan(problem(domain, INSTANCES[domain][0]), objective=text), least(domain, wanted))
 
 
-@pytest.mark.parametrize("text", ["one-switch alpha=0.9 tradeoff=20 wealth={}"])
+@pytest.mark.parametrize("domain", INSTANCES)
+def test_a_function_that_is_no_other_objective(domain: str) -> None:
+    low, high = BUDGETS[domain][0], BUDGETS[domain][-1]
+
+    def utility(cost: float) -> float:
+        return -math.tanh((cost - low) / (high - low)) - (cost > high)
+
+    result = statehtn.plan(problem(domain, INSTANCES[domain][0]), objective=utility)
+    check(result, least(domain, objective(utility)))
+    assert result.value_unit == "utility"
+    assert result.problem_class == "PS1020*"
+
+
+@pytest.mark.parametrize("text", ["cvar 0.9", "deadline {}", "one-switch alpha=0.9 tradeoff=20 wealth={}"])
 @pytest.mark.parametrize("domain", INSTANCES)
 def test_the_best_plans_are_those_of_least_value(domain: str, text: str) -> None:
     name, _, distinct = INSTANCES[domain]
@@ -77,6 +96,31 @@ def test_the_best_plans_are_those_of_least_value(domain: str, text: str) -> None
     values = sorted(wanted.value(plan.cost_distribution()) for plan in all_plans(domain))
     assert found.status is Status.OPTIMAL
     assert [plan.value for plan in found] == pytest.approx(values[:5], rel=PRECISION, abs=PRECISION)
+
+
+@pytest.mark.parametrize("text", ["neutral", "seeking 0.9", "mean-variance 0.01", "mean-deviation 0.2", "cvar 0.5"])
+@pytest.mark.parametrize("domain", INSTANCES)
+def test_budgets_are_kept(domain: str, text: str) -> None:
+    wanted, budget = objective(text), BUDGETS[domain][-1]
+    laws = [plan.cost_distribution() for plan in all_plans(domain)]
+    probabilities = sorted({round(law.cdf(budget), 9) for law in laws})
+    for asked in {probabilities[-1], probabilities[len(probabilities) // 2]} - {0.0}:
+        keep = statehtn.Keep(budget, asked - 1e-10)
+        result = statehtn.plan(problem(domain, INSTANCES[domain][0]), objective=text, keep=keep)
+        keeping = tuple(plan for plan in all_plans(domain) if keep.holds(plan.cost_distribution()))
+        check(result, least(domain, wanted, keeping))
+        (kept,) = result.keep
+        assert kept.attained is not None
+        assert kept.attained >= keep.probability
+
+
+def test_budgets_that_no_plan_keeps() -> None:
+    result = statehtn.plan(problem("av", "p1"), keep=["12 0.9", "16.5 0.2"])
+    laws = [plan.cost_distribution() for plan in all_plans("av")]
+    assert result.status is Status.UNSOLVABLE
+    assert [kept.attained for kept in result.keep] == pytest.approx(
+        [max(law.cdf(budget) for law in laws) for budget in (12, 16.5)]
+    )
 
 
 @pytest.mark.parametrize(("wealth", "mean"), [(10, 19.4), (24, 19.4), (40, 18.35)])

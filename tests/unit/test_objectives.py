@@ -12,6 +12,7 @@ from statehtn import UsageError
 from statehtn.cli import main
 from statehtn.risk import MeanVariance
 from tests.test_minimal import DOMAIN, PROBLEM
+from tests.unit.test_planner import UNSOLVABLE
 
 AV = ("domains/av/domain.hddl", "domains/av/p1.hddl")
 Capture = pytest.CaptureFixture[str]
@@ -183,3 +184,79 @@ def test_a_run_of_a_suite_that_no_search_can_do_is_left_out(capsys: Capture) -> 
     assert "the objective 'deadline 25' does not have" in captured.err
     assert captured.out.count("av,p1,neutral") == 1
     assert "deadline" not in captured.out
+
+
+def test_a_budget_that_is_kept(capsys: Capture) -> None:
+    assert main(["plan", *AV, "--objective", "cvar 0.5", "--keep", "25 0.99", "--keep", "20 1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["keep"] == [
+        {"budget": 25.0, "probability": 0.99, "attained": 1.0},
+        {"budget": 20.0, "probability": 1.0, "attained": 1.0},
+    ]
+    assert (found["status"], found["value"]) == ("optimal", pytest.approx(BEST))
+    assert main(["plan", *AV, "--keep", "20 0.9"]) == 0
+    shown = capsys.readouterr().out
+    assert "optimal: no plan of this problem that keeps 20 with probability 0.9 has a higher expected utility" in shown
+    assert "within 20             with probability 1" in shown
+
+
+@pytest.mark.parametrize("command", [["plan"], ["top", "3"]])
+def test_budgets_that_no_plan_keeps(command: list[str], capsys: Capture) -> None:
+    budgets = ["--keep", "12 0.01", "--keep", "20 1"]
+    assert main([*command, *AV, "--keep", "12 0.9"]) == 10
+    shown = capsys.readouterr().out
+    assert "unsolvable: it is proven that no plan of this problem keeps 12 with probability 0.9" in shown
+    assert "with probability 0.2 at most" in shown
+    assert main([*command, *AV, *budgets]) == 10
+    assert "each of these budgets can be kept, but no plan keeps all of them" in capsys.readouterr().out
+    assert main([*command, *AV, *budgets, "--json"]) == 10
+    found = json.loads(capsys.readouterr().out)
+    assert [kept["attained"] for kept in found["keep"]] == [pytest.approx(0.2), 1.0]
+
+
+def test_budgets_of_a_problem_without_a_plan() -> None:
+    result = statehtn.plan(statehtn.read_hddl_text(DOMAIN, UNSOLVABLE), keep="12 0.9")
+    assert result.status is statehtn.Status.UNSOLVABLE
+    assert [kept.attained for kept in result.keep] == [None]
+    assert "no plan of this problem keeps" not in str(result)
+
+
+def test_a_deadline_that_no_plan_can_meet_is_a_result(vehicle: statehtn.Problem) -> None:
+    result = statehtn.plan(vehicle, objective="deadline 3")
+    assert result.status is statehtn.Status.OPTIMAL
+    assert (result.value, result.value_unit, result.risk_cost) == (1.0, "probability", None)
+
+
+def test_a_utility_that_rises_is_no_utility(vehicle: statehtn.Problem) -> None:
+    with pytest.raises(UsageError, match=r"the utility 'rising' rises: .*; costs are positive and utilities maximised"):
+        statehtn.plan(vehicle, objective=rising)
+
+
+def rising(cost: float) -> float:
+    """Likes to pay."""
+    return cost
+
+
+def test_a_function_has_a_certainty_equivalent_where_it_falls(vehicle: statehtn.Problem) -> None:
+    result = statehtn.plan(vehicle, objective=lambda cost: -(cost**2))
+    assert result.plan is not None
+    law = result.plan.cost_distribution()
+    assert result.value == pytest.approx(law.standard_deviation**2 + law.mean**2)
+    assert result.risk_cost == pytest.approx((result.value or 0) ** 0.5)
+    assert str(result.objective) == "utility <lambda>"
+    late = statehtn.plan(vehicle, objective=lambda cost: -float(cost > 17))
+    assert late.value == pytest.approx(0.424)
+    assert late.risk_cost is None
+    assert str(statehtn.plan(vehicle, objective=lambda cost: -float(cost > 20)).value) == "0.0"  # no negative zero
+
+
+def test_notebooks_show_every_objective(vehicle: statehtn.Problem) -> None:
+    result = statehtn.plan(vehicle, objective="cvar 0.95", keep="25 0.5")
+    page = result._repr_html_()
+    assert "cvar 0.95" in page
+    assert "within 25" in page
+    assert "certainty equivalent" not in page
+    assert "certainty equivalent" not in result.steps._repr_html_()
+    top = statehtn.top_plans(vehicle, 2, objective="deadline 17")
+    assert "value" in top._repr_html_()
+    assert "by deadline 17" in statehtn.compare_attitudes(vehicle, objectives=["deadline 17", "neutral"])._repr_html_()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import cast
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
@@ -12,8 +11,7 @@ from statehtn.core.labels import Labels
 from statehtn.core.pricing import price
 from statehtn.core.scale import Scale
 from statehtn.limits import Limits
-from statehtn.risk import Utility
-from statehtn.risk.objective import Objective
+from statehtn.risk import AdditiveObjective
 
 
 class PriceLabels(Labels):
@@ -27,8 +25,8 @@ class PriceLabels(Labels):
 
     worths_are_values = False
 
-    def __init__(self, grounding: Grounding, objective: Utility, limits: Limits) -> None:
-        super().__init__(grounding, cast("Objective", objective))
+    def __init__(self, grounding: Grounding, objective: AdditiveObjective, limits: Limits) -> None:
+        super().__init__(grounding, objective)
         self._problem = price(grounding, objective, limits)
         self._prices = self._problem.on(Scale.first(self._problem.bounds()))
 

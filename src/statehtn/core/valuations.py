@@ -17,28 +17,22 @@ from statehtn.core.price_labels import PriceLabels
 from statehtn.core.switches import LabelSwitches
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
-from statehtn.risk import Exponential, Exponentials, MeanDeviation, Neutral, OneSwitch, Utility
+from statehtn.risk import AdditiveObjective, Exponentials, MeanDeviation, OneSwitch
 from statehtn.risk.keep import Keep
 from statehtn.risk.objective import Objective
 
 Constructor = Callable[[Grounding, Any, LabelSwitches, Limits], Labels]
 
 
-def _prices(grounding: Grounding, objective: Utility, _: LabelSwitches, limits: Limits) -> Labels:
-    return PriceLabels(grounding, objective, limits)
-
-
 VALUATIONS: Mapping[type, Constructor] = MappingProxyType(
     {
-        Neutral: _prices,
-        Exponential: _prices,
         OneSwitch: ExponentialLabels,
         Exponentials: ExponentialLabels,
         MeanDeviation: MeanDeviationLabels,
         **dict.fromkeys(OBJECTIVES, LawLabels),
     }
 )
-"""By the class of an objective: how its labels are made."""
+"""By the class of an objective whose prices do not add up: how its labels are made."""
 
 
 def labels_of(
@@ -51,8 +45,11 @@ def labels_of(
         InputError: a cost has no finite price for it; the message names the action.
         LimitReached: a limit was reached.
     """
-    make = VALUATIONS.get(type(objective))
-    if make is None:
+    labels: Labels
+    if isinstance(objective, AdditiveObjective):
+        labels = PriceLabels(grounding, objective, limits)
+    elif type(objective) in VALUATIONS:
+        labels = VALUATIONS[type(objective)](grounding, objective, switches, limits)
+    else:
         raise UnsupportedError(f"there is no label search by the objective '{objective}'")
-    labels = make(grounding, objective, switches, limits)
     return BudgetLabels(labels, keep, switches, limits) if keep else labels

@@ -88,7 +88,7 @@ class CallableUtility(TotalUtility):
         self.check(expect_law(law).least, _highest(law))
         if isinstance(law, CostDistribution):
             self._check_at(cost for _, cost in law.outcomes)
-        return -law.expectation(self.utility)
+        return 0.0 - law.expectation(self.utility)
 
     def certainty_equivalent(self, law: CostLaw) -> float | None:
         """Return the certain cost of the same utility; None where the utility does not fall strictly there."""

@@ -69,12 +69,12 @@ class Piecewise(TotalUtility):
         changes.
         """
         if isinstance(expect_law(law), CostDistribution):
-            return -law.expectation(self.utility)
+            return 0.0 - law.expectation(self.utility)
         (first, utility), slopes = self.points[0], self.slopes
         expected = utility + slopes[0] * (law.mean - first)
         for (cost, _), (before, after) in zip(self.points[1:-1], pairwise(slopes), strict=True):
             expected += (after - before) * law.expected_overrun(cost)
-        return -expected
+        return 0.0 - expected
 
     def certainty_equivalent(self, law: CostLaw) -> float | None:
         """Return the certain cost of the same utility; None where the utility does not fall strictly there."""
