@@ -153,7 +153,7 @@ def piecewise(draw: Draw) -> str:
 def exponentials(draw: Draw) -> str:
     """Some linear part or none, and one or two exponentials of either sign."""
     alphas = draw(st.lists(st.sampled_from(("0.1", "0.5", "1", "-0.1", "-0.5")), min_size=1, max_size=2, unique=True))
-    linear = draw(st.sampled_from(("", " linear=1", " linear=0.2")))
+    linear = draw(st.sampled_from((" linear=0", " linear=1", " linear=0.2")))
     return "exponentials" + linear + "".join(f" {a}:{draw(st.sampled_from(('1', '0.1', '0.01')))}" for a in alphas)
 
 
