@@ -21,8 +21,8 @@ from statehtn.risk.objective import Objective
 
 MOST_SEARCHES = 8
 """With one price, before the label search."""
-MOST_MIXES = 4
-"""At which nodes are bounded; further ones take longer than they save."""
+MOST_MIXES = 2
+"""At which nodes are bounded. The first one saves half of the labels or more, the second up to a tenth of the rest."""
 
 SWITCHES = ("bound_mixes", "compare_boxes", "compare_envelopes", "use_cutoff")
 """The fields of `LabelSwitches` that the core has under the same names."""

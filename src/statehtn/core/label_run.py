@@ -34,9 +34,9 @@ class ValuedTrace:
 class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
     """The best plans that are known, in the order of their values, and a bound of all others.
 
-    Searches with a single price for each action come first where one plan is wanted: their plans are incumbents. Then
-    label searches, on one grid after the other: on each, no plan has a worth above its value, so that what is proven on
-    any of them holds. Plans are compared by their exact values, by which they keep their budgets, too.
+    Searches with a single price for each action come first: their plans are incumbents. Then label searches, on one
+    grid after the other: on each, no plan has a worth above its value, so that what is proven on any of them holds.
+    Plans are compared by their exact values, by which they keep their budgets, too.
 
     Args:
         grounding: the ground problem.
@@ -101,7 +101,7 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
 
     def _stages(self) -> Iterator[bool]:
         """Go through the stages; yield whether each has found a better plan."""
-        if self.options.count == 1 and self.is_supported:
+        if self.is_supported:
             for support in self.labels.support(self.limits):
                 self.effort += support.effort
                 self.stopped = support.stopped
