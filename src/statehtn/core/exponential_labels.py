@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from typing import cast
 
 import statehtn._relax as _relax
-from statehtn.core.finite_labels import FiniteLabels
-from statehtn.core.finite_prices import FinitePrices, Mix
+from statehtn.core.finite_labels import CoreMix, FiniteLabels
 from statehtn.core.grounding import Grounding
 from statehtn.core.hull import best_mean
 from statehtn.core.pricing import price
@@ -43,15 +42,11 @@ class ExponentialLabels(FiniteLabels):
         self._is_convex = all(term.slope > 0 for term in self._terms)
         super().__init__(grounding, cast("Objective", objective), problems, switches, self._is_convex)
 
-    def _core(self, prices: FinitePrices, mixes: Sequence[Mix], options: _relax.FiniteOptions) -> _relax.Valuation:
-        return _relax.ExponentialSums(
-            tuple(one.handle for one in prices.prices),
-            prices.exponents,
-            self._linear,
-            self._terms,
-            tuple((mix.handle, mix.core_weights) for mix in mixes),
-            options,
-        )
+    def _core(
+        self, prices: Sequence[_relax.PricedProblem], mixes: Sequence[CoreMix], options: _relax.FiniteOptions
+    ) -> _relax.Valuation:
+        exponents = self._prices.exponents
+        return _relax.ExponentialSums(tuple(prices), exponents, self._linear, self._terms, tuple(mixes), options)
 
     def _next_weights(self, points: Sequence[Sequence[float]], values: Sequence[float]) -> list[float]:
         """Return the tangent of the disutility where it is the least so far.

@@ -28,6 +28,10 @@ SWITCHES = ("bound_mixes", "compare_boxes", "compare_envelopes", "use_cutoff")
 """The fields of `LabelSwitches` that the core has under the same names."""
 
 
+CoreMix = tuple[_relax.PricedProblem, Sequence[float]]
+"""A mix in whole units, and the weights of the prices in theirs."""
+
+
 class FiniteLabels(Labels):
     """Labels of several sums of prices, whose objective rises in each of the sums.
 
@@ -55,11 +59,13 @@ class FiniteLabels(Labels):
         self._switches = switches
         self._bounds_mixes = bounds_mixes
         self._mixes: list[Mix] = []
-        self._least = [0] * len(problems)  # proven of each price, in units
+        self._least = [0] * len(problems)  # proven of every plan, by price, in whole units
 
     @abstractmethod
-    def _core(self, prices: FinitePrices, mixes: Sequence[Mix], options: _relax.FiniteOptions) -> _relax.Valuation:
-        """Return the valuation in the core."""
+    def _core(
+        self, prices: Sequence[_relax.PricedProblem], mixes: Sequence[CoreMix], options: _relax.FiniteOptions
+    ) -> _relax.Valuation:
+        """Return the valuation in the core, of prices on their scales and mixes of them."""
 
     @abstractmethod
     def _next_weights(self, points: Sequence[Sequence[float]], values: Sequence[float]) -> list[float]:
@@ -76,7 +82,8 @@ class FiniteLabels(Labels):
         options = _relax.FiniteOptions()
         for name in SWITCHES:
             setattr(options, name, getattr(self._switches, name))
-        return self._core(self._prices, self._mixes[:MOST_MIXES], options)
+        mixes = [(self._prices.handle_of(mix), mix.core_weights) for mix in self._mixes[:MOST_MIXES]]
+        return self._core(self._prices.handles(), mixes, options)
 
     def refine(self, limits: Limits) -> bool:  # noqa: ARG002
         """Take larger units for prices that do not fit into the present ones."""
@@ -104,7 +111,7 @@ class FiniteLabels(Labels):
             *_, outcome = run.outcomes([options])
             found = outcome.plans.results
             stopped = None if outcome.stopped is Status.TIME_LIMIT else outcome.stopped
-            bound = None if outcome.lower_bound is None else self._bound(mix, outcome.lower_bound)
+            bound = None if outcome.lower_bound is None else self._bound(mix, outcome.lower_bound, run.prices.handle)
             yield Support(found, bound, outcome.effort, stopped, outcome.status is Status.UNSOLVABLE)
             if not found or (point := self._prices.point(found[0])) in points:
                 break
@@ -112,17 +119,20 @@ class FiniteLabels(Labels):
             values.append(self.value(found[0]))
             weights = self._next_weights(points, values)
 
-    def _bound(self, mix: Mix, cost: float) -> float:
-        """Take up that no plan costs less than this at a mix; return a lower bound of the value of every plan."""
+    def _bound(self, mix: Mix, cost: float, handle: _relax.PricedProblem) -> float:
+        """Take up that no plan costs less than this at a mix; return a lower bound of the value of every plan.
+
+        What has cost nothing so far has no need of the prices themselves: any will do.
+        """
         positive = [price for price, weight in enumerate(mix.weights) if weight > 0]
-        mixes: list[Mix] = []
+        mixes: list[CoreMix] = []
         units: list[int] = []
         if len(positive) == 1:
             exponent = self._prices.exponents[positive[0]]
             self._least[positive[0]] = math.floor(math.ldexp(cost / mix.weights[positive[0]], exponent))
         elif self._bounds_mixes:
-            mixes.append(mix)
+            mixes.append((handle, mix.core_weights))
             units.append(math.floor(math.ldexp(cost, mix.exponent)))
             self._mixes.insert(0, mix)
-        core = self._core(self._prices, mixes, _relax.FiniteOptions())
+        core = self._core([handle] * len(self._least), mixes, _relax.FiniteOptions())
         return _relax.value_of(core.bound(core.start(), [*self._least, *units]))

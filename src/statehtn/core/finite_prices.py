@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import chain
-from typing import TypeVar
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.pricing import PricedProblem, Prices, RiskCost
+from statehtn.core.pricing import PricedProblem, RiskCost
 from statehtn.core.scale import Scale
 
 WEIGHT_BITS = 20
@@ -22,9 +20,6 @@ COARSER_BITS = 10
 ROUNDING = 2.0**-50
 """Of a sum of positive products in floating point."""
 
-Value = TypeVar("Value")
-Result = TypeVar("Result")
-
 
 @dataclass(frozen=True, slots=True)
 class Mix:
@@ -33,15 +28,13 @@ class Mix:
     Args:
         weights: of the prices, in the units of what they are.
         problem: the mix in those units.
-        handle: the mix in whole units of the core: the sum of the prices in their units, each times its own of
-            `core_weights`, exact and then rounded down. No plan costs more than follows from its costs at the others.
-        core_weights: see there.
-        exponent: a unit is `2**-exponent`.
+        core_weights: of the prices in whole units, for the mix in whole units: the sum is exact, and then rounded down.
+            No plan costs more at the mix than follows from its costs at the others.
+        exponent: a unit of the mix is `2**-exponent`.
     """
 
     weights: tuple[float, ...]
     problem: PricedProblem
-    handle: _relax.PricedProblem
     core_weights: tuple[float, ...]
     exponent: int
 
@@ -49,34 +42,55 @@ class Mix:
 class FinitePrices:
     """Several vectors of prices of one ground problem, each on its own scale.
 
+    What is made of them is made once for each row of prices that there is: thousands of actions often have a few.
+
     Args:
         grounding: the ground problem.
-        problems: the same problem at each of them.
+        problems: the same problem at each of the prices.
     """
 
     def __init__(self, grounding: Grounding, problems: Sequence[PricedProblem]) -> None:
         self.grounding = grounding
         self.problems = tuple(problems)
-        self._set_scales([Scale.first(problem.bounds()) for problem in problems])
+        self.scales = [Scale.first(problem.bounds()) for problem in problems]
+        numbers: dict[tuple[int, ...], int] = {}
+        self._rows: list[tuple[RiskCost, ...]] = []
+
+        def row_of(row: tuple[RiskCost, ...]) -> int:
+            number = numbers.setdefault(tuple(map(id, row)), len(self._rows))
+            if number == len(self._rows):
+                self._rows.append(row)
+            return number
+
+        self._actions, self._parts = (
+            [row_of(row) for row in zip(*columns, strict=True)]
+            for columns in ([problem.actions for problem in problems], [problem.parts for problem in problems])
+        )
 
     @property
     def exponents(self) -> list[int]:
         """By price: a unit is `2**-exponent`."""
-        return [prices.scale.exponent for prices in self.prices]
+        return [scale.exponent for scale in self.scales]
+
+    def handles(self) -> tuple[_relax.PricedProblem, ...]:
+        """Return the ground problem at each of the prices, in whole units."""
+        return tuple(self._in_core(column) for column in self._units())
+
+    def handle_of(self, mix: Mix) -> _relax.PricedProblem:
+        """Return the ground problem at a mix, in whole units."""
+        in_units = _whole_mix(mix.core_weights)
+        return self._in_core([in_units(*row) for row in zip(*self._units(), strict=True)])
 
     def coarsen(self) -> bool:
         """Take larger units where prices are beyond the cap; returns false where none are."""
-        capped = [any(units > prices.scale.cap for units in _all(prices)) for prices in self.prices]
-        if not any(capped):
-            return False
-        scales = [prices.scale for prices in self.prices]
-        self._set_scales(
-            [
-                Scale(scale.exponent - COARSER_BITS, scale.cap) if is_capped else scale
-                for scale, is_capped in zip(scales, capped, strict=True)
-            ]
-        )
-        return True
+        columns = zip(self._units(), self.scales, strict=True)
+        coarser = [
+            Scale(scale.exponent - COARSER_BITS, scale.cap) if max(units, default=0) > scale.cap else scale
+            for units, scale in columns
+        ]
+        is_coarser = coarser != self.scales
+        self.scales = coarser
+        return is_coarser
 
     def point(self, trace: _relax.SearchResult) -> list[float]:
         """Return what a plan costs at each of the prices."""
@@ -86,33 +100,26 @@ class FinitePrices:
         """Return the mix of the prices with these weights, at least 0 and not all 0, up to a factor and rounding."""
         largest = max(weights)
         weights = tuple(_few_bits(weight / largest) for weight in weights)
-
-        def mixed_price(*row: RiskCost) -> RiskCost:
-            return _mixed_price(weights, row)
-
-        mixed = PricedProblem(
-            self.grounding,
-            _mapped(mixed_price, [problem.actions for problem in self.problems]),
-            _mapped(mixed_price, [problem.parts for problem in self.problems]),
+        mixed = [_mixed_price(weights, row) for row in self._rows]
+        problem = PricedProblem(
+            self.grounding, [mixed[number] for number in self._actions], [mixed[number] for number in self._parts]
         )
-        exponent = Scale.first(mixed.bounds()).exponent
+        exponent = Scale.first(price.bound for price in mixed).exponent
         core_weights = tuple(
             math.ldexp(weight, exponent - other) for weight, other in zip(weights, self.exponents, strict=True)
         )
-        in_units = _whole_mix(core_weights)
-        handle = _relax.PricedProblem(
-            self.grounding.handle,
-            _mapped(in_units, [prices.actions for prices in self.prices]),
-            _mapped(in_units, [prices.parts for prices in self.prices]),
-        )
-        return Mix(weights, mixed, handle, core_weights, exponent)
+        return Mix(weights, problem, core_weights, exponent)
 
-    def _set_scales(self, scales: Sequence[Scale]) -> None:
-        self.prices: list[Prices] = [problem.on(scale) for problem, scale in zip(self.problems, scales, strict=True)]
+    def _units(self) -> list[list[int]]:
+        """Return the prices of each row in whole units, by price."""
+        columns = zip(*self._rows, strict=True) if self._rows else [()] * len(self.scales)
+        return [
+            scale.units(price.bound for price in column) for scale, column in zip(self.scales, columns, strict=True)
+        ]
 
-
-def _all(prices: Prices) -> Iterable[int]:
-    return chain(prices.actions, prices.parts)
+    def _in_core(self, units: Sequence[int]) -> _relax.PricedProblem:
+        actions, parts = ([units[number] for number in numbers] for numbers in (self._actions, self._parts))
+        return _relax.PricedProblem(self.grounding.handle, actions, parts)
 
 
 def _few_bits(weight: float) -> float:
@@ -135,14 +142,3 @@ def _whole_mix(weights: Sequence[float]) -> Callable[..., int]:
     denominator = max(down for _, down in ratios)  # powers of two, of which the largest is a multiple of all
     factors = [up * (denominator // down) for up, down in ratios]
     return lambda *row: sum(factor * units for factor, units in zip(factors, row, strict=True)) // denominator
-
-
-def _mapped(function: Callable[..., Result], columns: Sequence[Sequence[Value]]) -> list[Result]:
-    """Return a function of each row of columns; equal rows are many."""
-    known: dict[tuple[Value, ...], Result] = {}
-    results = []
-    for row in zip(*columns, strict=True):
-        if row not in known:
-            known[row] = function(*row)
-        results.append(known[row])
-    return results

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import statehtn._relax as _relax
 from statehtn.core.action_names import action_names
@@ -67,10 +68,14 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         self.options = options
         self.keep = keep
         self.precision = precision
-        self.names = action_names(grounding)
         self.plans: list[ValuedTrace] = []
         self._found: dict[Key, ValuedTrace] = {}
         options.tolerance = precision / 2 if labels.worths_are_values else 0.0
+
+    @cached_property
+    def names(self) -> list[int | None]:
+        """By ground action: its number in the domain; None where it has none."""
+        return action_names(self.grounding)
 
     @property
     def proven(self) -> int:
@@ -181,6 +186,8 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         return self.precision * max(1.0, abs(value))
 
     def _key(self, trace: _relax.SearchResult) -> Key:
+        if self.options.count == 1:
+            return ()  # the best plan is enough
         own = [name for action in trace.actions if (name := self.names[action]) is not None]
         return tuple(own if self.options.distinct == _relax.Distinct.Sequence else sorted(own))
 

@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 
 import statehtn._relax as _relax
-from statehtn.core.finite_labels import FiniteLabels
-from statehtn.core.finite_prices import FinitePrices, Mix
+from statehtn.core.finite_labels import CoreMix, FiniteLabels
 from statehtn.core.grounding import Grounding
 from statehtn.core.pricing import price
 from statehtn.core.switches import LabelSwitches
@@ -55,11 +54,11 @@ class MeanDeviationLabels(FiniteLabels):
         problems = [price(grounding, pricing, limits) for pricing in (Neutral(), Variance())]
         super().__init__(grounding, objective, problems, switches, bounds_mixes=True)
 
-    def _core(self, prices: FinitePrices, mixes: Sequence[Mix], options: _relax.FiniteOptions) -> _relax.Valuation:
-        means, variances = (one.handle for one in prices.prices)
-        of_means, of_variances = prices.exponents
-        mixed = tuple((mix.handle, mix.core_weights) for mix in mixes)
-        return _relax.MeanDeviation(self._weight, means, variances, of_means, of_variances, mixed, options)
+    def _core(
+        self, prices: Sequence[_relax.PricedProblem], mixes: Sequence[CoreMix], options: _relax.FiniteOptions
+    ) -> _relax.Valuation:
+        (means, variances), (of_means, of_variances) = prices, self._prices.exponents
+        return _relax.MeanDeviation(self._weight, means, variances, of_means, of_variances, tuple(mixes), options)
 
     def _next_weights(self, points: Sequence[Sequence[float]], values: Sequence[float]) -> list[float]:
         """Return the chord of the level of the best plan, from no variance to the least mean.

@@ -94,15 +94,21 @@ class PricedProblem:
     parts: list[RiskCost]
 
     def bounds(self) -> Iterator[float]:
-        """Yield the lower bounds of all prices."""
-        return (price.bound for price in chain(self.actions, self.parts))
+        """Yield the lower bounds of all prices, of the same object once."""
+        return (price.bound for price in self._kinds().values())
 
     def on(self, scale: Scale) -> Prices:
         """Return all prices on a scale, rounded down from their lower bounds."""
-        actions, parts = (scale.units(price.bound for price in prices) for prices in (self.actions, self.parts))
-        has_free = any(not units and bound for units, bound in zip(chain(actions, parts), self.bounds(), strict=True))
+        kinds = self._kinds()
+        units = dict(zip(kinds, scale.units(price.bound for price in kinds.values()), strict=True))
+        has_free = any(not units[kind] and price.bound for kind, price in kinds.items())
+        actions, parts = ([units[id(price)] for price in prices] for prices in (self.actions, self.parts))
         handle = _relax.PricedProblem(self.grounding.handle, actions, parts)
         return Prices(scale, actions, parts, has_free, handle)
+
+    def _kinds(self) -> dict[int, RiskCost]:
+        """Return the prices that there are, by identity: thousands of actions often have a few laws."""
+        return {id(price): price for price in chain(self.actions, self.parts)}
 
     def of_plan(self, trace: _relax.SearchResult) -> PricedTrace:
         """Return what a plan costs: the sum of its own prices, rounded once."""
