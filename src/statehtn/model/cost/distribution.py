@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate
@@ -178,12 +179,10 @@ class CostDistribution(CostLaw):
         """
         if checked_probability(probability, "the probability of a quantile") == 1:
             return self.most
-        reached = 0.0
-        for weight, cost in self.outcomes:
-            reached += weight
-            if reached >= probability - ROUNDING:
-                return cost
-        return self.most
+        probabilities, costs = zip(*self.outcomes, strict=True)
+        wanted = probability - ROUNDING
+        first = bisect_left(range(len(costs)), wanted, key=lambda index: math.fsum(probabilities[: index + 1]))
+        return costs[min(first, len(costs) - 1)]  # type: ignore[no-any-return]
 
     def cvar(self, level: float) -> float:
         """Return the mean cost of the worst `1 - level` of all cases.
@@ -194,14 +193,14 @@ class CostDistribution(CostLaw):
         tail = 1 - checked_probability(level, "the level of the CVaR")
         if tail <= ROUNDING:
             return self.most
-        total, left = 0.0, tail
-        for weight, cost in reversed(self.outcomes):
-            taken = min(weight, left)
-            total += taken * cost
-            left -= taken
-            if left <= 0:
-                break
-        return min(max(total / (tail - max(left, 0.0)), self.least), self.most)
+        probabilities, costs = zip(*self.outcomes, strict=True)
+        first = bisect_left(range(len(costs)), -tail, key=lambda index: -math.fsum(probabilities[index:]))
+        weights = list(probabilities[first:])
+        if first > 0:  # of the next outcome as much as the tail has left
+            weights.insert(0, tail - math.fsum(weights))
+            first -= 1
+        mean = math.fsum(map(mul, weights, costs[first:])) / math.fsum(weights)
+        return min(max(mean, self.least), self.most)
 
     def exponential_mean(self, slope: float) -> float:
         """Return `ln E[e^(slope C)] / slope`, between the least and the largest outcome."""
