@@ -7,13 +7,29 @@ from fractions import Fraction
 
 from hypothesis import strategies as st
 
-from statehtn.model import TRUE, Action, And, Atom, CostBlock, CostDistribution, Formula, Not, Parameter, Plan, Problem
+from statehtn.model import (
+    TRUE,
+    Action,
+    And,
+    Atom,
+    CostBlock,
+    CostDistribution,
+    Formula,
+    Not,
+    Number,
+    Parameter,
+    Plan,
+    Problem,
+)
 from statehtn.model import Signature as Predicate
 from statehtn.model.chance import Chance, Outcome
+from tests.lotteries import lottery_problems
 from tests.naive_semantics import Semantics
 from tests.strategies import ORDERS, Draw, branches, chance, ground, problems
 
 HIDDEN = {"h0": Predicate("h0"), "h1": Predicate("h1", (Parameter("?x0", ("thing",)),)), "h2": Predicate("h2")}
+ONE = Number(Fraction(1))
+LEAST = tuple(map(Fraction, ("1", "4", "2.5", "5", "0.5", "9")))
 EIGHTHS = tuple(Fraction(i, 8) for i in range(1, 8))
 
 
@@ -34,6 +50,52 @@ def correlated_problems(draw: Draw, orders: tuple[str, ...] = ORDERS, most_scena
     actions = {name: draw(with_hidden_costs(action)) for name, action in domain.actions.items()}
     predicates = {**domain.predicates, **HIDDEN}
     return replace(problem, domain=replace(domain, predicates=predicates, actions=actions), chances=tuple(chances))
+
+
+@st.composite
+def correlated_lotteries(
+    draw: Draw, orders: tuple[str, ...] = ORDERS, certain: bool = False, most_scenarios: int = 16
+) -> Problem:
+    """A problem whose actions are lotteries, some of which depend on what is hidden, in at most so many scenarios.
+
+    Args:
+        certain: whether nothing is uncertain once the scenario is known.
+    """
+    problem = draw(lottery_problems(orders))
+    facts = [("h0",), ("h2",), ("h3",), ("h4",)]
+    chances: list[Chance] = []
+    count = 1
+    for _ in range(draw(st.sampled_from((1, 1, 2, 3)))):
+        drawn = draw(chances_of(facts))
+        if count * len(drawn.outcomes) <= most_scenarios:
+            chances.append(drawn)
+            count *= len(drawn.outcomes)
+    actions = {name: draw(hidden_lottery(action, certain)) for name, action in problem.domain.actions.items()}
+    predicates = {**problem.domain.predicates, **{name: Predicate(name) for (name,) in facts}}
+    domain = replace(problem.domain, predicates=predicates, actions=actions)
+    return replace(problem, domain=domain, chances=tuple(chances))
+
+
+@st.composite
+def hidden_lottery(draw: Draw, action: Action, certain: bool) -> Action:
+    """The action with costs that depend on one hidden fact, or two, instead of chance, or in addition."""
+    first, *others = action.costs
+    hidden = Atom(draw(st.sampled_from(("h0", "h2", "h3", "h4"))))
+    costs = list(others)
+    if certain or chance(draw, 0.5):
+        low, high = draw(st.tuples(st.sampled_from(LEAST), st.sampled_from(LEAST)))
+        costs.append(CostBlock(((ONE, Number(low)),), hidden))
+        costs.append(CostBlock(((ONE, Number(high + draw(st.sampled_from(LEAST)))),), Not(hidden)))
+    else:
+        costs.append(first)
+    if chance(draw, 0.5):
+        other = Atom(draw(st.sampled_from(("h0", "h2", "h3", "h4"))))
+        more = ((ONE, Number(draw(st.sampled_from(LEAST)))),) if certain else draw(branches(()))
+        costs.append(CostBlock(more, other))
+    if certain:
+        costs = [replace(block, branches=block.branches[:1]) for block in costs]
+        costs = [replace(block, branches=((ONE, block.branches[0][1]),)) for block in costs]
+    return replace(action, costs=tuple(costs))
 
 
 @st.composite

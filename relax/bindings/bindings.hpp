@@ -11,5 +11,6 @@ void bind_find_plans(nanobind::module_& module);
 void bind_label_search(nanobind::module_& module);
 void bind_laws(nanobind::module_& module);
 void bind_valuations(nanobind::module_& module);
+void bind_scenarios(nanobind::module_& module);
 
 #endif

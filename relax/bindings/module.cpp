@@ -9,5 +9,6 @@ NB_MODULE(_relax, module) {
     bind_find_plans(module);
     bind_valuations(module);
     bind_laws(module);
+    bind_scenarios(module);
     bind_label_search(module);
 }

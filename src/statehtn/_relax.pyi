@@ -628,3 +628,46 @@ def plan_based_search(
     steps: int | None = None,
     progress: object | None = None,
 ) -> LabelSearchResult: ...
+
+class ScenarioOptions:
+    def __init__(self) -> None: ...
+    @property
+    def compare_scenarios(self) -> bool: ...
+    @compare_scenarios.setter
+    def compare_scenarios(self, arg: bool, /) -> None: ...
+    @property
+    def decided_scenarios(self) -> bool: ...
+    @decided_scenarios.setter
+    def decided_scenarios(self, arg: bool, /) -> None: ...
+    @property
+    def ideal_bound(self) -> bool: ...
+    @ideal_bound.setter
+    def ideal_bound(self, arg: bool, /) -> None: ...
+    @property
+    def tangent_bound(self) -> bool: ...
+    @tangent_bound.setter
+    def tangent_bound(self, arg: bool, /) -> None: ...
+
+class ScenarioTotals(Valuation):
+    def __init__(
+        self,
+        prices: Sequence[PricedProblem],
+        probabilities: Sequence[float],
+        tangents: Sequence[tuple[PricedProblem, float, float, Sequence[float]]],
+        asks_scenarios: bool,
+        objective: LawObjective,
+        budgets: Sequence[tuple[LawObjective, float]],
+        options: ScenarioOptions,
+    ) -> None: ...
+
+class ScenarioLaws(Valuation):
+    def __init__(
+        self,
+        scenarios: Sequence[tuple[float, PricedProblem, CostLaws]],
+        tangents: Sequence[tuple[PricedProblem, float, float, Sequence[float]]],
+        asks_scenarios: bool,
+        objective: LawObjective,
+        budgets: Sequence[tuple[LawObjective, float]],
+        options: ScenarioOptions,
+        law_options: LawOptions,
+    ) -> None: ...

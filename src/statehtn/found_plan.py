@@ -17,7 +17,7 @@ from statehtn.model.cost.unknown import refuse_unknown
 from statehtn.model.plan import MOST_SHOWN, Plan, Step
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.risk import AdditiveObjective, Keep, Objective, agent_in, certainty_equivalent, plan_risk_cost
+from statehtn.risk import AdditiveObjective, Keep, Objective, adds_up, agent_in, certainty_equivalent, plan_risk_cost
 from statehtn.validation import validate
 
 SECONDS_TO_VALIDATE = 0.2
@@ -208,12 +208,12 @@ def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecke
     """
     assert plan.costs is not None
     steps = _priced_steps(plan, plan.costs, objective)
-    adds_up = isinstance(objective, AdditiveObjective)
-    law = None if adds_up and not keep else sum_of(plan.costs)
+    has_prices = adds_up(objective, plan.costs)
+    law = None if has_prices and not keep else sum_of(plan.costs)
     prices = (step.risk_cost or 0.0 for step in steps)
-    value = math.fsum(prices) if law is None or adds_up else objective.value(law)
+    value = math.fsum(prices) if law is None or has_prices else objective.value(law)
     budgets = tuple(kept(one, None if law is None else one.attained(law)) for one in keep)
-    risk_cost = value if law is None or adds_up else certainty_equivalent(objective, law, value)
+    risk_cost = value if law is None or has_prices else certainty_equivalent(objective, law, value)
     return FoundPlan(plan, steps, objective, unchecked, value, risk_cost, budgets)
 
 
@@ -233,7 +233,8 @@ def _priced_steps(plan: Plan, costs: Sequence[CostLaw], objective: Objective) ->
     """Return the steps with their prices; a law is priced once, and equal steps of one law are one object."""
     known: dict[tuple[object, int], PricedStep] = {}
     prices: dict[int, tuple[float, float | None]] = {}
-    price_of = objective.risk_cost if isinstance(objective, AdditiveObjective) else lambda _: None
+    is_priced = adds_up(objective, costs)
+    price_of = objective.risk_cost if is_priced and isinstance(objective, AdditiveObjective) else lambda _: None
     steps: list[PricedStep] = []
     for step, law in zip(plan.steps, costs, strict=True):
         one = known.get((step, id(law)))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 from statehtn.core.search import last_of
 from statehtn.core.search_run import SearchOutcome
+from statehtn.correlation import Correlation, value_as_if_independent
 from statehtn.counted import counted
 from statehtn.effort import Meter, Statistics
 from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, priced, validated_and_priced
@@ -16,7 +17,7 @@ from statehtn.model.cost.unknown import MissingNumber
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.result import Result
-from statehtn.risk import Deadline
+from statehtn.risk import Deadline, Neutral
 from statehtn.session import ProgressCallback, Session, TopProgressCallback
 from statehtn.settings import Settings, TopSettings
 from statehtn.top_result import RankedPlan, TopPlans
@@ -69,8 +70,9 @@ def solutions(
     for reached in _run(session, settings, search, limits):
         found = reached.found[0] if reached.found else None
         largest, statistics = _largest(session, settings, limits, reached)
+        correlation, statistics = _correlation(session, settings, limits, replace(reached, statistics=statistics))
         how = reached.status, settings, statistics, reached.stopped, reached.unread, largest
-        result = Result(*how, found, reached.bound)
+        result = Result(*how, found, reached.bound, correlation)
         _tell(result)
         yield result
 
@@ -132,6 +134,30 @@ def _largest(
         is_best = best.plan is not None and best.status is Status.OPTIMAL
         largest.append(keep.attained(best.plan.cost_distribution()) if best.plan is not None and is_best else None)
     return tuple(largest), statistics
+
+
+def _correlation(
+    session: Session, settings: Settings, limits: Limits, reached: Reached
+) -> tuple[Correlation | None, Statistics]:
+    """Return what it is worth to know that costs hang together, and the effort with that.
+
+    None where they do not, where that makes no difference to the mean, or where a limit left it unknown.
+    """
+    independent = session.as_if_independent()
+    is_known = reached.status is Status.OPTIMAL and reached.found and not isinstance(settings.objective, Neutral)
+    if independent is None or not is_known:
+        return None, reached.statistics
+
+    def search(meter: Meter) -> Iterator[SearchOutcome]:
+        return _last_alone(independent.search(settings, limits, meter, None))
+
+    other = last_of(_run(independent, settings, search, limits))
+    statistics = reached.statistics.and_search(other.statistics)
+    chosen = other.found[0] if other.found and other.status is Status.OPTIMAL else None
+    believed = None if chosen is None else value_as_if_independent(chosen.plan, settings.objective)
+    if chosen is None or believed is None:
+        return None, statistics
+    return Correlation(chosen, believed, chosen.value - reached.found[0].value), statistics
 
 
 def _run(session: Session, settings: Settings | TopSettings, search: Search, limits: Limits) -> Iterator[Reached]:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
+from statehtn.correlation import Correlation, ScenarioLaw, scenario_laws
 from statehtn.counted import counted
 from statehtn.effort import Statistics
 from statehtn.found_plan import PRICES, FoundPlan, Kept, PricedSteps, kept
@@ -97,10 +98,13 @@ class Result(RunResult[Settings]):
             an interruption may come before it is validated: then the status is `solved`, and the prices are those of
             the search.
         bound: a lower bound on the value of every plan of the problem, in the objective's unit.
+        correlation: where costs hang together and the plan is proven to be the best: what it is worth to know that;
+            None for a neutral agent, to whom it is worth nothing.
     """
 
     found: FoundPlan | None = None
     bound: float | None = None
+    correlation: Correlation | None = None
 
     def __repr__(self) -> str:
         plan = "no plan"
@@ -174,6 +178,11 @@ class Result(RunResult[Settings]):
         return self.bound if self.found is None else min(self.bound, self.found.value)
 
     @property
+    def scenarios(self) -> tuple[ScenarioLaw, ...]:
+        """What the plan costs in each scenario; empty where there is no plan, or none of its costs depends on them."""
+        return () if self.found is None else scenario_laws(self.found.plan)
+
+    @property
     def gap(self) -> float | None:
         """By how much the value of the plan may exceed that of the best one, in the objective's unit."""
         return None if self.found is None or self.lower_bound is None else self.found.value - self.lower_bound
@@ -202,6 +211,8 @@ class Result(RunResult[Settings]):
             "lower_bound": self.lower_bound,
             "gap": self.gap,
             "keep": [one.to_dict() for one in self.keep],
+            "scenarios": [one.to_dict() for one in self.scenarios],
+            "correlation": None if self.correlation is None else self.correlation.to_dict(),
             "validated": None if self.found is None else self.validated,
             "stopped": None if self.stopped is None else self.stopped.value,
             "unread": self.unread,

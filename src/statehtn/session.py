@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from statehtn.compatible import LABEL_SWITCHES
 from statehtn.core.grounding import Grounding, ground
 from statehtn.core.label_search import search_labels
 from statehtn.core.plan_based import search_networks, search_networks_by_labels
@@ -17,8 +18,10 @@ from statehtn.core.search_run import SearchOutcome
 from statehtn.core.searches import TAKES
 from statehtn.core.top_plans import find_top_plans
 from statehtn.effort import Meter
+from statehtn.errors import UsageError
 from statehtn.limits import Limits
 from statehtn.log import log
+from statehtn.model.cost.scenario_cost import as_if_independent
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
@@ -83,12 +86,22 @@ class Session:
         self, settings: Settings, limits: Limits, meter: Meter, progress: ProgressCallback | None
     ) -> Iterator[SearchOutcome]:
         """Read, ground and price the problem, and return the search for a plan, which begins with its first outcome."""
-        if settings.search == "greedy" and settings.needs_labels:
+        needs_labels = settings.needs_labels or self._hangs_together(settings, limits, meter)
+        if needs_labels and settings.search == "weighted":
+            raise UsageError(
+                f"the weighted search adds up prices of actions, which '{settings.objective}' has none of where costs "
+                f"hang together; take astar or anytime"
+            )
+        if needs_labels and (lacking := [name for name in settings.without if name not in LABEL_SWITCHES]):
+            raise UsageError(
+                f"the search by '{settings.objective}' where costs hang together has no refinement '{lacking[0]}'"
+            )
+        if settings.search == "greedy" and needs_labels:
             return map(_by_the_mean, self.search(replace(settings, objective=Neutral()), limits, meter, progress))
-        if settings.needs_labels and settings.solver == "plan":
+        if needs_labels and settings.solver == "plan":
             how = partial(search_networks_by_labels, branch=settings.branch)
             return self._by_labels(how, settings, limits, meter, progress)
-        if settings.needs_labels:
+        if needs_labels:
             takes = TAKES["state", "top"]
             heuristic = settings.heuristic if settings.heuristic in takes else takes[0]
             how = partial(search_labels, heuristic=heuristic, switches=settings.label_switches)
@@ -105,12 +118,33 @@ class Session:
     ) -> Iterator[SearchOutcome]:
         """Read, ground and price the problem, and return the search for the best plans."""
         k, distinct, heuristic = settings.k, settings.distinct, settings.heuristic
-        if settings.needs_labels:
+        if settings.needs_labels or self._hangs_together(settings, limits, meter):
             how = partial(search_labels, k=k, distinct=distinct, heuristic=heuristic)
             return self._by_labels(how, settings, limits, meter, progress)
         problem = self.price(settings.prices, limits, meter)
         found = find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
         return iter((found,))
+
+    def as_if_independent(self) -> Session | None:
+        """Return a session for the same ground problem, whose costs hang together, in which they are independent.
+
+        Each action has the law that its cost has over all scenarios. None where costs are independent anyway, or have
+        no list of outcomes.
+        """
+        grounding = self._grounding
+        if grounding is None or not grounding.has_scenarios:
+            return None
+        laws, part_laws = as_if_independent(grounding.laws), as_if_independent(grounding.part_laws)
+        if laws is None or part_laws is None:
+            return None
+        session = Session(self.source)
+        session.problem = self.problem
+        session._grounding = replace(grounding, laws=laws, part_laws=part_laws)
+        return session
+
+    def _hangs_together(self, settings: Settings | TopSettings, limits: Limits, meter: Meter) -> bool:
+        """Tell whether costs hang together, so that prices for this objective do not add up."""
+        return not isinstance(settings.objective, Neutral) and self.ground(limits, meter).has_scenarios
 
     def _by_labels(
         self,

@@ -52,6 +52,8 @@ KEYS = [
     "lower_bound",
     "gap",
     "keep",
+    "scenarios",
+    "correlation",
     "validated",
     "stopped",
     "unread",

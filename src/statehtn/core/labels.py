@@ -15,7 +15,7 @@ from statehtn.core.switches import SearchSwitches
 from statehtn.effort import SearchEffort
 from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.cost.sum import total_cost
+from statehtn.model.cost.scenario_cost import total_of
 from statehtn.model.status import Status
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.objective import Objective
@@ -86,7 +86,7 @@ class Labels(ABC):
     def law(self, trace: _relax.SearchResult) -> CostLaw:
         """Return the law of the total cost of a plan that was found."""
         laws, part_laws = self.grounding.laws, self.grounding.part_laws
-        return total_cost([*(laws[one] for one in trace.actions), *(part_laws[one] for one in trace.due_parts)])
+        return total_of([*(laws[one] for one in trace.actions), *(part_laws[one] for one in trace.due_parts)])
 
     def value(self, trace: _relax.SearchResult) -> float:
         """Return the value of a plan that was found, as exactly as can be."""

@@ -58,8 +58,22 @@ class LawSwitches:
     """Bound what is to come by the graph of laws: a law for every task."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class ScenarioSwitches:
+    """Refinements of the search where costs hang together."""
+
+    compare_scenarios: bool = True
+    """Leave out a way where another one is as good in each scenario."""
+    decided_scenarios: bool = True
+    """Compare no scenario in which a way cannot but cost more than the objective tells apart."""
+    ideal_bound: bool = True
+    """Bound what is to come in each scenario by itself."""
+    tangent_bound: bool = True
+    """Bound what is to come by tangents of the objective, if it shuns risk: they are for all scenarios together."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LabelSwitches(TopSwitches, LawSwitches):
+class LabelSwitches(TopSwitches, LawSwitches, ScenarioSwitches):
     """Refinements of the search by an objective whose label is not one price; each family has its own."""
 
     # Of labels that are several sums.
@@ -92,7 +106,9 @@ class SearchSwitches(BoundSwitches):
 
 
 def set_switches(
-    options: object, switches: ProgressionSwitches, kind: type[ProgressionSwitches] | type[LawSwitches] | None = None
+    options: object,
+    switches: ProgressionSwitches,
+    kind: type[ProgressionSwitches] | type[LawSwitches] | type[ScenarioSwitches] | None = None,
 ) -> None:
     """Hand switches over to options of the core; of a kind of them only, if it is said."""
     for switch in fields(kind or switches):

@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 from statehtn.core.budget_labels import BudgetLabels
+from statehtn.core.correlated_labels import correlated_labels
 from statehtn.core.exponential_labels import ExponentialLabels
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels
@@ -45,6 +46,8 @@ def labels_of(
         InputError: a cost has no finite price for it; the message names the action.
         LimitReached: a limit was reached.
     """
+    if grounding.has_scenarios:
+        return correlated_labels(grounding, objective, keep, switches, limits)
     labels: Labels
     if isinstance(objective, AdditiveObjective):
         labels = PriceLabels(grounding, objective, limits)

@@ -29,7 +29,7 @@ from statehtn.found_plan import PricedStep
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.status import Status
 from statehtn.result import Result
-from statehtn.risk import AdditiveObjective, ValueUnit
+from statehtn.risk import ValueUnit, adds_up
 
 COLUMNS = (
     Column("", is_number=True),
@@ -37,6 +37,8 @@ COLUMNS = (
     Column("cost"),
     Column("expected", is_number=True),
 )
+MOST_SCENARIOS = 8
+"""Of more of them only the best and the worst are shown."""
 NOT_VALIDATED = "no: the run ended before the plan was checked; 'statehtn validate' checks a plan file (--output)"
 
 
@@ -76,7 +78,7 @@ def readable_result(result: Result, stream: TextIO) -> str:
 
 
 def _table(result: Result, laws: str = "", title: str = "") -> Table:
-    has_prices = isinstance(result.objective, AdditiveObjective)
+    has_prices = adds_up(result.objective, [priced.law for priced in result.steps])
     totals = ("", "in all", laws, number(result.expected_cost), *([number(result.value)] if has_prices else []))
     return Table(_columns(worth(result) if has_prices else None), _rows(result.steps, has_prices), totals, title)
 
@@ -110,7 +112,7 @@ def _notes(result: Result) -> list[str]:
         return [] if result.lower_bound is None else [_at_least(result, result.lower_bound)]
     utility = result.expected_utility
     notes = [f"value {_value(result)}" if utility is None else f"expected utility {utility}"]
-    notes += [f"{label}: {text}" for label, text in keep_rows(result)]
+    notes += [f"{label}: {text}" for label, text in (*keep_rows(result), *_scenario_rows(result))]
     if result.status is not Status.OPTIMAL and result.lower_bound is not None:
         notes.append(f"no plan has a {worth(result)} below {number(result.lower_bound)}")
     return notes
@@ -136,10 +138,26 @@ def _summary_rows(result: Result) -> Labelled:
         rows.append(("validated", NOT_VALIDATED))
     if found:
         rows += [("expected cost", number(result.expected_cost)), *_worth_rows(result)]
-    rows += [*keep_rows(result), *_bound_row(result)]
+    rows += [*keep_rows(result), *_scenario_rows(result), *_bound_row(result)]
     problem_class = result.problem_class or NO_CLASS
     rows.append(("problem class", f"{problem_class} (solver {result.solver}, heuristic {result.heuristic})"))
     return rows + effort_rows(result.statistics)
+
+
+def _scenario_rows(result: Result) -> Labelled:
+    """Return what the plan costs in the most likely scenarios and in the worst, and what correlation was worth."""
+    given = result.scenarios
+    shown = sorted(given, key=lambda one: -one.scenario.probability)[:MOST_SCENARIOS]
+    if len(given) > MOST_SCENARIOS:
+        shown = [min(given, key=lambda one: one.law.mean), max(given, key=lambda one: one.law.mean)]
+    rows = [(f"given {one.scenario}", f"{one.law} (probability {number(one.scenario.probability)})") for one in shown]
+    if len(given) > len(shown):
+        rows.append(("given others", f"{len(given) - len(shown)} scenarios between these two"))
+    if (correlation := result.correlation) is not None:
+        chosen = f"the plan chosen as if costs were independent is worth {number(correlation.plan.value)}"
+        believed = f"(and not {number(correlation.believed)}), {number(correlation.difference)} more"
+        rows.append(("correlation", f"{chosen} {believed}"))
+    return rows
 
 
 def _worth_rows(result: Result) -> Labelled:

@@ -9,6 +9,7 @@ from statehtn.risk.deadline import Deadline
 from statehtn.risk.disutility import FiniteObjective, Term
 from statehtn.risk.evar import EntropicValueAtRisk
 from statehtn.risk.expected_utility import (
+    adds_up,
     expected_utility,
     expected_utility_by_trajectories,
     expected_utility_text,
@@ -62,6 +63,7 @@ __all__ = [
     "Term",
     "Utility",
     "ValueUnit",
+    "adds_up",
     "agent_in",
     "agent_name",
     "agent_order",

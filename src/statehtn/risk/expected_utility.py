@@ -8,17 +8,33 @@ from collections.abc import Iterable, Sequence
 
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
+from statehtn.model.cost.scenario_cost import ScenarioCost, sum_of
 from statehtn.risk.neutral import Neutral
-from statehtn.risk.objective import AdditiveObjective
+from statehtn.risk.objective import AdditiveObjective, Objective
 from statehtn.risk.utility import DIGITS, Utility
 
 
 def plan_risk_cost(laws: Iterable[CostLaw], objective: AdditiveObjective) -> float:
     """Return the certainty-equivalent cost of a plan: the sum of those of its actions, positive, in the domain's unit.
 
+    Where costs hang together, it is that of their sum.
+
     Source: the logarithm of the paper's equation 5 (Theorem 1), or its equation 7 for the neutral attitude.
     """
+    laws = list(laws)
+    if not adds_up(objective, laws):
+        return objective.risk_cost(sum_of(laws))
     return math.fsum(objective.risk_cost(law) for law in laws)
+
+
+def adds_up(objective: Objective, laws: Iterable[CostLaw]) -> bool:
+    """Tell whether the value of the sum of these costs is the sum of a price for each of them.
+
+    Where costs hang together only their means add up.
+    """
+    if isinstance(objective, Neutral):
+        return True
+    return isinstance(objective, AdditiveObjective) and not any(isinstance(law, ScenarioCost) for law in laws)
 
 
 def plan_expected_cost(laws: Iterable[CostLaw]) -> float:

@@ -200,6 +200,12 @@ def by_scenario(scenarios: tuple[Scenario, ...], laws: Sequence[CostLaw]) -> Cos
     return first if all(law is first or law == first for law in laws) else ScenarioCost(scenarios, tuple(laws))
 
 
+def as_if_independent(laws: Iterable[CostLaw]) -> tuple[CostLaw, ...] | None:
+    """Return the laws over all scenarios as if they had none in common; None where one has no list of outcomes."""
+    found = [law.mixture if isinstance(law, ScenarioCost) else law for law in laws]
+    return None if None in found else tuple(law for law in found if law is not None)
+
+
 def sum_of(laws: Sequence[CostLaw]) -> CostLaw:
     """Return the sum of costs that are independent given each scenario; of one cost that cost itself."""
     if len(laws) == 1:

@@ -1,0 +1,46 @@
+"""How plans are compared in the core where their costs hang together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from statehtn.core.grounding import Grounding
+from statehtn.core.labels import Labels
+from statehtn.core.law_objectives import OBJECTIVES
+from statehtn.core.price_labels import PriceLabels
+from statehtn.core.scenario_exponential_labels import ScenarioExponentialLabels
+from statehtn.core.scenario_labels import ScenarioLabels
+from statehtn.core.switches import LabelSwitches
+from statehtn.errors import UnsupportedError
+from statehtn.limits import Limits
+from statehtn.risk import Exponential, Exponentials, Neutral, OneSwitch
+from statehtn.risk.keep import Keep
+from statehtn.risk.objective import Objective
+
+
+def correlated_labels(
+    grounding: Grounding, objective: Objective, keep: Sequence[Keep], switches: LabelSwitches, limits: Limits
+) -> Labels:
+    """Return how plans are compared by an objective, of those that keep budgets; see `labels_of`.
+
+    Raises:
+        UnsupportedError: the objective is not monotone: where costs hang together, wasting some in good scenarios would
+            lower it. Or there is no label search by it.
+        LimitReached: a limit was reached.
+    """
+    if not objective.monotone:
+        raise UnsupportedError(
+            f"'{objective}' is not monotone: where costs hang together, it could be lowered by wasting cost in good "
+            f"scenarios; take an objective such as 'cvar 0.9' or 'averse 0.1'"
+        )
+    if isinstance(objective, Neutral) and not keep:
+        return PriceLabels(grounding, objective, limits)
+    if isinstance(objective, Neutral) or type(objective) in OBJECTIVES:
+        return ScenarioLabels(grounding, objective, keep, switches, limits)
+    if isinstance(objective, Exponential | OneSwitch | Exponentials):
+        if keep:
+            raise UnsupportedError(
+                f"where costs hang together, there is no search by '{objective}' with budgets to keep"
+            )
+        return ScenarioExponentialLabels(grounding, objective, switches, limits)
+    raise UnsupportedError(f"there is no search by the objective '{objective}' where costs hang together")
