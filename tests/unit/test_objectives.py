@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 import statehtn
 from statehtn import UsageError
 from statehtn.cli import main
+from statehtn.display.result import readable_result
 from statehtn.risk import MeanVariance
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_planner import UNSOLVABLE
@@ -248,6 +250,25 @@ def test_a_function_has_a_certainty_equivalent_where_it_falls(vehicle: statehtn.
     assert late.value == pytest.approx(0.424)
     assert late.risk_cost is None
     assert str(statehtn.plan(vehicle, objective=lambda cost: -float(cost > 20)).value) == "0.0"  # no negative zero
+
+
+def test_better_plans_come_one_after_the_other(vehicle: statehtn.Problem) -> None:
+    *_, last = statehtn.improving(vehicle, objective="deadline 17")
+    assert last.status is statehtn.Status.OPTIMAL
+    assert last.value == pytest.approx(0.424)
+    values = [one.value for one in statehtn.improving(vehicle, objective="cvar 0.95", keep="25 0.5")]
+    assert values == sorted(values, key=lambda value: -(value or 0))
+    assert values[-1] == pytest.approx(BEST)
+
+
+def test_what_is_not_proven_to_the_precision_has_a_gap(vehicle: statehtn.Problem) -> None:
+    wanted = "one-switch alpha=0.9 tradeoff=20 wealth=40"
+    result = statehtn.plan(vehicle, objective=wanted, precision=1e-15)  # more than floating point can hold
+    assert result.status is statehtn.Status.SOLVED
+    assert result.value is not None
+    assert result.lower_bound is not None
+    assert 0 < (result.gap or 0) == result.value - result.lower_bound < 1e-8
+    assert f"(gap {result.gap:.4g})" in readable_result(result, io.StringIO())
 
 
 def test_notebooks_show_every_objective(vehicle: statehtn.Problem) -> None:

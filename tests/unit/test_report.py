@@ -126,6 +126,24 @@ def test_a_picture_of_what_attitude_means(vehicle: str) -> None:
     assert sum("var(--seeking-1)" in style for style in curves) == 1
 
 
+def test_plans_by_objectives_are_compared_by_their_values(tmp_path: Path) -> None:
+    p1 = problem("av", "p1")
+    agents = ["averse 0.9", "neutral", "deadline 17", "cvar 0.95"]
+    results = write(tmp_path / "r.csv", [planned(p1, "av", "p1", agent) for agent in agents])
+    page = report(results)
+    (figure,) = section(page, "costs").iter("figure")
+    _, *rows = table(figure, "p1")
+    assert {row[0]: row[2] for row in rows} == {
+        "averse 0.9": "19.4",
+        "neutral": "18.35",
+        "deadline 17": "0.424",
+        "cvar 0.95": "19.4",
+    }
+    (plot,) = (svg for svg in figure.iter("svg") if svg.get("class") == "plot")
+    assert "deadline 17 from 15 to 26" in (plot.get("aria-label") or "")
+    assert "No run contradicts another" in page
+
+
 def test_both_solvers(vehicle: str) -> None:
     duels = section(vehicle, "duels")
     assert [text(caption) for caption in duels.iter("figcaption")] == [

@@ -98,7 +98,7 @@ def test_headings_sort(page: Any) -> None:
 def test_numbers_are_read_as_they_are_typeset_and_what_is_missing_is_last(page: Any) -> None:
     page.locator("summary").click()
     headings = page.locator("#all thead th").all_inner_texts()
-    for name, least in (("expanded", "0"), ("certainty equivalent", "3.4")):
+    for name, least in (("expanded", "0"), ("value", "3.4")):
         number = headings.index(name) + 1
         button = page.locator(f"#all thead th:nth-child({number}) button")
         button.click()

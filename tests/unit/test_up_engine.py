@@ -84,10 +84,27 @@ def test_attitudes_and_distributions() -> None:
     assert without.metrics["risk_cost"] == "3.0"
 
 
+def test_objectives_and_budgets() -> None:
+    risky = {"fast": CostDistribution.of([(0.5, 1), (0.5, 6)])}
+    for wanted, expected in (("deadline 2", "fast"), ("cvar 0.9", "Slow Way"), (lambda cost: -float(cost > 2), "fast")):
+        engine = StateHtnEngine(objective=wanted, cost_distributions=risky)
+        result = engine.solve(problem())
+        assert result.status is S.SOLVED_OPTIMALLY
+        assert names(result) == [expected]
+    assert float(result.metrics["value"]) == 0.5
+    keeping = StateHtnEngine(objective="seeking 0.9", keep="3 0.9", cost_distributions=risky)
+    assert names(keeping.solve(problem())) == ["Slow Way"]
+    assert StateHtnEngine(keep=["2 0.9"], cost_distributions=risky).solve(problem()).status is S.UNSOLVABLE_PROVEN
+    assert names(list(keeping.get_solutions(problem()))[-1]) == ["Slow Way"]
+
+
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
         ({"attitude": "brave"}, "brave"),
+        ({"objective": "cvr 0.9"}, "did you mean 'cvar'"),
+        ({"objective": "neutral", "alpha": 1}, "two ways to say one thing"),
+        ({"keep": "3 2"}, "at most 1"),
         ({"attitude": "averse"}, "alpha"),
         ({"attitude": "averse", "alpha": "much"}, "much"),
         ({"heuristic": "ff"}, "one of auto, blind, tdg, hmax, lmcut, potential, potential-hmax, found 'ff'"),

@@ -34,7 +34,7 @@ class ProgressLine:
         """Describe the search as it is now."""
         parts = []
         if progress.lower_bound is not None:
-            parts.append(f"no plan costs less than {progress.lower_bound:.6g}")
+            parts.append(f"no plan is below {progress.lower_bound:.6g}")
         if progress.best is not None:
             parts.append(f"best plan so far {progress.best:.6g}")
         self._describe(progress, parts)
@@ -43,7 +43,7 @@ class ProgressLine:
         """Describe a search for several plans as it is now."""
         parts = [f"{progress.found:,} plan{'' if progress.found == 1 else 's'} found", f"{progress.proven:,} proven"]
         if progress.lower_bound is not None:
-            parts.append(f"no other costs less than {progress.lower_bound:.6g}")
+            parts.append(f"no other is below {progress.lower_bound:.6g}")
         self._describe(progress, parts)
 
     def _describe(self, progress: Progress | TopProgress, parts: list[str]) -> None:
