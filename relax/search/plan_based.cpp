@@ -61,7 +61,9 @@ PlanBased::PlanBased(const AnalysedProblem& problem, Valuation& valuation, const
       bounds_(make_network_bounds(progression_.networks(), task_bounds_)),
       linearisation_(*valuation.prices().front(), progression_, bounds_.front(), limits),
       open_preconditions_(problem, limits) {
-    valuation_.begin(progression_.networks(), limits_);
+    if (problem.solvable) {
+        valuation_.begin(progression_.networks(), limits_);
+    }
     valuation_.set_cutoff(cutoff());
 }
 

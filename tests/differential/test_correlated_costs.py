@@ -13,6 +13,7 @@ from statehtn import Problem, Status, validate
 from statehtn.core.grounding import ground
 from statehtn.core.label_run import PRECISION
 from statehtn.core.label_search import search_labels
+from statehtn.core.plan_based import search_networks_by_labels
 from statehtn.core.search_run import SearchOutcome
 from statehtn.core.switches import LabelSwitches, LawSwitches, ScenarioSwitches
 from statehtn.model.cost.scenario_cost import total_of
@@ -86,6 +87,16 @@ def test_the_best_plan_by_exponentials(family: str, data: st.DataObject, without
         text = text.replace("exponentials", "exponentials linear=0")
     wanted = objective(text)
     check(problem, search(problem, wanted, (), without), wanted, best_plan(problem, exact_objective(text)))
+
+
+@given(problem=correlated(), text=st.one_of(TEXTS, *EXPONENTIAL.values()))
+def test_the_plan_based_solver_agrees(problem: Problem, text: str) -> None:
+    if text.startswith("exponentials") and "linear" not in text:
+        text = text.replace("exponentials", "exponentials linear=0")
+    wanted = objective(text)
+    *_, outcome = search_networks_by_labels(ground(problem), wanted, limits=LIMITS)
+    must_have_ended(outcome.stopped)
+    check(problem, outcome, wanted, best_plan(problem, exact_objective(text)))
 
 
 @given(problem=correlated(), text=st.one_of(TEXTS, st.just("neutral")), keep=budgets())

@@ -119,7 +119,11 @@ def test_a_plan_that_is_chosen_as_if_costs_were_independent(problem: Problem) ->
     assert correlation is not None
     assert [step.step.action for step in correlation.plan.steps] == ["ship"]
     assert (correlation.plan.value, correlation.believed, correlation.difference) == (13.5, 13.5, 0.5)
-    assert "the plan chosen as if costs were independent is worth 13.5" in str(result)
+    assert "correlation: knowing of it is worth 0.5: the plan chosen as if costs were independent is worth 13.5" in str(
+        result
+    )
+    no_matter = statehtn.plan(problem, objective="overrun 30")
+    assert "makes no difference" in str(no_matter)
 
 
 def test_budgets_are_kept_over_all_scenarios(problem: Problem) -> None:

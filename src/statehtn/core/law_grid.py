@@ -16,6 +16,7 @@ from statehtn.model import CostDistribution, CostLaw
 from statehtn.model.cost.scipy_call import scipy_call
 from statehtn.model.cost.scipy_law import ScipyCost
 from statehtn.model.cost.sum import parts_of
+from statehtn.model.cost.total import as_decimal
 
 Outcomes = tuple[list[float], list[float]]
 """Of a law: whole steps, ascending, and the probability of each."""
@@ -67,7 +68,7 @@ class Grid:
         """Return a grid for laws: exact, or a coarse one."""
         parts = list(parts_of(laws))
         listed = [law for law in parts if isinstance(law, CostDistribution)]
-        costs = {Fraction(repr(cost)) for law in listed for _, cost in law.outcomes}
+        costs = {as_decimal(cost) for law in listed for _, cost in law.outcomes}
         tops = [_top(law, TAIL) for law in parts if not isinstance(law, CostDistribution)]
         largest = max([*map(float, costs), *tops], default=0.0) or 1.0
         exact = _common_step(costs) if len(listed) == len(parts) else None
@@ -91,7 +92,7 @@ class Grid:
 
     def steps(self, cost: float) -> int:
         """Return the cost in whole steps, rounded down; the float means the decimal that it prints as."""
-        return math.floor(Fraction(repr(cost)) / self.step)
+        return math.floor(as_decimal(cost) / self.step)
 
     def outcomes(self, law: CostLaw) -> Outcomes:
         """Return a law on the grid."""
@@ -127,11 +128,15 @@ class LawGrid:
         grounding: the ground problem.
         grid: the grid.
         limits: they hold while laws are put on it.
+        known: laws by their identity that are on this grid already; what others have in common with it.
     """
 
-    def __init__(self, grounding: Grounding, grid: Grid, limits: Limits) -> None:
+    def __init__(
+        self, grounding: Grounding, grid: Grid, limits: Limits, known: dict[int, Outcomes] | None = None
+    ) -> None:
         self.grounding = grounding
         self.grid = grid
+        known = {} if known is None else known
         numbers: dict[int, int] = {}
         self._laws: list[Outcomes] = []
 
@@ -142,7 +147,9 @@ class LawGrid:
                 if number is None:
                     limits.check()
                     number = numbers[id(law)] = len(self._laws)
-                    self._laws.append(grid.outcomes(law))
+                    if id(law) not in known:
+                        known[id(law)] = grid.outcomes(law)
+                    self._laws.append(known[id(law)])
                 found.append(number)
             return found
 

@@ -18,7 +18,7 @@ from statehtn.core.scenarios import all_are_certain, given_scenarios
 from statehtn.core.searches import SEARCHES, core_options
 from statehtn.core.staged_run import StagedRun
 from statehtn.core.switches import LabelSwitches, ScenarioSwitches, SearchSwitches, set_switches
-from statehtn.limits import Limits
+from statehtn.limits import Limits, watched
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.scenario_cost import sum_of
 from statehtn.model.status import Status
@@ -57,14 +57,17 @@ class ScenarioLabels(Labels):
         limits: Limits,
     ) -> None:
         super().__init__(grounding, objective)
-        self._given = given_scenarios(grounding)
-        self._weights = [scenario.probability for scenario in self._given]
-        self._is_certain = all_are_certain(self._given)
         self._keep = keep
         self._switches = switches
+        self._limits = limits
         self._reach = 0.0  # the cost up to which a Python function is tabled
-        laws = {law for one in self._given for law in chain(one.grounding.laws, one.grounding.part_laws)}
-        self._set_grid(Grid.first(laws), limits)
+        with watched(limits):
+            self._given = given_scenarios(grounding)
+            self._weights = [scenario.probability for scenario in self._given]
+            self._is_certain = all_are_certain(self._given)
+            laws = {law for one in self._given for law in chain(one.grounding.laws, one.grounding.part_laws)}
+            grid = Grid.first(laws)
+        self._set_grid(grid, limits)
         first = tangent(objective, self._weights, [math.inf] * len(self._given))
         is_positive = first is not None and min(first.weights) > 0
         self._tangents = [first if first is not None and is_positive else Tangent(-math.inf, tuple(self._weights))]
@@ -74,7 +77,8 @@ class ScenarioLabels(Labels):
         """The totals or laws on the present grid, and how the objective values them."""
         options = _relax.ScenarioOptions()
         set_switches(options, self._switches, ScenarioSwitches)
-        tangents = [self._tangent_in_the_core(line) for line in self._tangents]
+        with watched(self._limits):
+            tangents = [self._tangent_in_the_core(line) for line in self._tangents]
         asks_scenarios = len(self._given) <= MOST_ASKED
         how = asks_scenarios, self._objective_in_the_core(), self._budgets_in_the_core(), options
         if self._is_certain:
@@ -100,7 +104,9 @@ class ScenarioLabels(Labels):
         best = math.inf  # at the present tangent: what the plan that it touches costs
         for _ in range(MOST_SEARCHES if self._switches.tangent_bound else 1):
             line = self._tangents[-1]
-            run = StagedRun(self._priced(line), limits.for_a_part(share))
+            with watched(limits):
+                problem = self._priced(line)
+            run = StagedRun(problem, limits.for_a_part(share))
             *_, outcome = run.outcomes([core_options(SEARCHES["astar"][0], self.grounding, "auto", 1.0, ALL_SWITCHES)])
             stopped = None if outcome.stopped is Status.TIME_LIMIT else outcome.stopped
             found, least = outcome.plans.results, outcome.lower_bound
@@ -119,7 +125,8 @@ class ScenarioLabels(Labels):
 
     def _set_grid(self, grid: Grid, limits: Limits) -> None:
         self._grid = grid
-        self._grids = [LawGrid(scenario.grounding, grid, limits) for scenario in self._given]
+        known: dict[int, tuple[list[float], list[float]]] = {}
+        self._grids = [LawGrid(scenario.grounding, grid, limits, known) for scenario in self._given]
 
     @property
     def _largest(self) -> float:
@@ -138,6 +145,8 @@ class ScenarioLabels(Labels):
         ]
 
     def _note_reach(self, trace: _relax.SearchResult) -> None:
+        if not isinstance(self.objective, CallableUtility):
+            return
         law = self.law(trace)
         self._reach = max(self._reach, 2 * (law.most if math.isfinite(law.most) else law.quantile(MOST_LIKELY)))
 

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from html import escape
 from typing import TextIO
 
+from statehtn.correlation import Correlation
+from statehtn.counted import counted
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
 from statehtn.display.words import (
@@ -27,6 +29,7 @@ from statehtn.display.words import (
 )
 from statehtn.found_plan import PricedStep
 from statehtn.model.cost.law import CostLaw
+from statehtn.model.cost.scenario_cost import sum_of
 from statehtn.model.status import Status
 from statehtn.result import Result
 from statehtn.risk import ValueUnit, adds_up
@@ -37,6 +40,8 @@ COLUMNS = (
     Column("cost"),
     Column("expected", is_number=True),
 )
+ROUNDING = 1e-9
+"""Of values; smaller differences are none."""
 MOST_SCENARIOS = 8
 """Of more of them only the best and the worst are shown."""
 NOT_VALIDATED = "no: the run ended before the plan was checked; 'statehtn validate' checks a plan file (--output)"
@@ -100,8 +105,8 @@ def _rows(steps: Sequence[PricedStep], has_prices: bool) -> list[tuple[str, ...]
 
 
 def _range(laws: Sequence[CostLaw]) -> str:
-    least = sum(law.least for law in laws)
-    most = sum(law.most for law in laws)
+    total = sum_of(laws)
+    least, most = total.least, total.most
     if math.isinf(most):
         return f"at least {number(least)}"
     return number(least) if least == most else f"{number(least)} to {number(most)}"
@@ -150,14 +155,21 @@ def _scenario_rows(result: Result) -> Labelled:
     shown = sorted(given, key=lambda one: -one.scenario.probability)[:MOST_SCENARIOS]
     if len(given) > MOST_SCENARIOS:
         shown = [min(given, key=lambda one: one.law.mean), max(given, key=lambda one: one.law.mean)]
-    rows = [(f"given {one.scenario}", f"{one.law} (probability {number(one.scenario.probability)})") for one in shown]
+    rows = [(f"given {one.scenario}", f"{one.law} (probability {one.scenario.probability:.4g})") for one in shown]
     if len(given) > len(shown):
-        rows.append(("given others", f"{len(given) - len(shown)} scenarios between these two"))
+        rows.append(("given others", f"{counted(len(given) - len(shown), 'scenario')} between these two"))
     if (correlation := result.correlation) is not None:
-        chosen = f"the plan chosen as if costs were independent is worth {number(correlation.plan.value)}"
-        believed = f"(and not {number(correlation.believed)}), {number(correlation.difference)} more"
-        rows.append(("correlation", f"{chosen} {believed}"))
+        rows.append(("correlation", _worth_of(correlation)))
     return rows
+
+
+def _worth_of(correlation: Correlation) -> str:
+    """Return what it is worth to know that costs hang together, in words."""
+    seems = f"(and would seem to be worth {number(correlation.believed)})"
+    if correlation.difference <= ROUNDING * max(1.0, abs(correlation.plan.value)):
+        return f"makes no difference: the plan chosen as if costs were independent is as good {seems}"
+    chosen = f"the plan chosen as if costs were independent is worth {number(correlation.plan.value)}"
+    return f"knowing of it is worth {number(correlation.difference)}: {chosen} {seems}"
 
 
 def _worth_rows(result: Result) -> Labelled:
