@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 
 import statehtn._relax as _relax
-from statehtn.core.finite_prices import FinitePrices, Mix
+from statehtn.core.finite_prices import FinitePrices, Mix, in_units
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels, Support
 from statehtn.core.pricing import PricedProblem
@@ -59,7 +58,8 @@ class FiniteLabels(Labels):
         self._switches = switches
         self._bounds_mixes = bounds_mixes
         self._mixes: list[Mix] = []
-        self._least = [0] * len(problems)  # proven of every plan, by price, in whole units
+        self._least = [0.0] * len(problems)  # by price, proven of every plan
+        self._largest = [0.0] * len(problems)  # of the plans that were found
 
     @abstractmethod
     def _core(
@@ -86,15 +86,16 @@ class FiniteLabels(Labels):
         return self._core(self._prices.handles(), mixes, options)
 
     def refine(self, limits: Limits) -> bool:  # noqa: ARG002
-        """Take larger units for prices that do not fit into the present ones."""
-        if not self._prices.coarsen():
+        """Take units that fit the plans that were found, if these are others."""
+        if not self._prices.fit(self._largest):
             return False
         self._mixes = [self._prices.mix(mix.weights) for mix in self._mixes]
-        self._least = [0] * len(self._least)
         return True
 
     def value(self, trace: _relax.SearchResult) -> float:
         """Return the value of a plan that was found; the law of its cost is not needed."""
+        point = self._prices.point(trace)
+        self._largest = [max(known, number) for known, number in zip(self._largest, point, strict=True)]
         laws, part_laws = self.grounding.laws, self.grounding.part_laws
         parts = (*(laws[one] for one in trace.actions), *(part_laws[one] for one in trace.due_parts))
         return self.objective.value(sum_of(parts))
@@ -126,13 +127,11 @@ class FiniteLabels(Labels):
         """
         positive = [price for price, weight in enumerate(mix.weights) if weight > 0]
         mixes: list[CoreMix] = []
-        units: list[int] = []
         if len(positive) == 1:
-            exponent = self._prices.exponents[positive[0]]
-            self._least[positive[0]] = math.floor(math.ldexp(cost / mix.weights[positive[0]], exponent))
+            self._least[positive[0]] = cost / mix.weights[positive[0]]
         elif self._bounds_mixes:
             mixes.append((handle, mix.core_weights))
-            units.append(math.floor(math.ldexp(cost, mix.exponent)))
             self._mixes.insert(0, mix)
         core = self._core([handle] * len(self._least), mixes, _relax.FiniteOptions())
-        return _relax.value_of(core.bound(core.start(), [*self._least, *units]))
+        least = [self._prices.units(price, known) for price, known in enumerate(self._least)]
+        return _relax.value_of(core.bound(core.start(), [*least, *(in_units(cost, mix.exponent) for _ in mixes)]))

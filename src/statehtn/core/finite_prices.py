@@ -9,14 +9,14 @@ from dataclasses import dataclass
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.pricing import PricedProblem, RiskCost
-from statehtn.core.scale import Scale
+from statehtn.core.scale import BITS, MOST_BITS, MOST_UNITS, Scale
 
 WEIGHT_BITS = 20
 """Significant bits of a weight of a mix: with so few, its products with prices are exact."""
 LEAST_WEIGHT = 2.0**-100
 """A weight that is less, where the largest is 1, counts as 0."""
-COARSER_BITS = 10
-"""By so many bits a unit is larger on the next scale, where prices went beyond the cap."""
+MOST_EXPONENT = 1000
+"""Of a unit: the core has it as a float."""
 ROUNDING = 2.0**-50
 """Of a sum of positive products in floating point."""
 
@@ -52,7 +52,7 @@ class FinitePrices:
     def __init__(self, grounding: Grounding, problems: Sequence[PricedProblem]) -> None:
         self.grounding = grounding
         self.problems = tuple(problems)
-        self.scales = [Scale.first(problem.bounds()) for problem in problems]
+        self.scales = [_moderate(Scale.first(problem.bounds())) for problem in problems]
         numbers: dict[tuple[int, ...], int] = {}
         self._rows: list[tuple[RiskCost, ...]] = []
 
@@ -78,19 +78,22 @@ class FinitePrices:
 
     def handle_of(self, mix: Mix) -> _relax.PricedProblem:
         """Return the ground problem at a mix, in whole units."""
-        in_units = _whole_mix(mix.core_weights)
-        return self._in_core([in_units(*row) for row in zip(*self._units(), strict=True)])
+        whole_mix = _whole_mix(mix.core_weights)
+        return self._in_core([min(whole_mix(*row), MOST_UNITS) for row in zip(*self._units(), strict=True)])
 
-    def coarsen(self) -> bool:
-        """Take larger units where prices are beyond the cap; returns false where none are."""
-        columns = zip(self._units(), self.scales, strict=True)
-        coarser = [
-            Scale(scale.exponent - COARSER_BITS, scale.cap) if max(units, default=0) > scale.cap else scale
-            for units, scale in columns
+    def fit(self, sums: Sequence[float]) -> bool:
+        """Take the scales on which sums of this size have `BITS` bits; returns false if these are the present ones."""
+        fitting = [
+            Scale(min(BITS - math.frexp(size)[1], MOST_EXPONENT), 1 << MOST_BITS) if size > 0 else scale
+            for size, scale in zip(sums, self.scales, strict=True)
         ]
-        is_coarser = coarser != self.scales
-        self.scales = coarser
-        return is_coarser
+        is_other = fitting != self.scales
+        self.scales = fitting
+        return is_other
+
+    def units(self, price: int, cost: float) -> int:
+        """Return a cost at one of the prices in whole units, rounded down; at most what the core can hold."""
+        return in_units(cost, self.scales[price].exponent)
 
     def point(self, trace: _relax.SearchResult) -> list[float]:
         """Return what a plan costs at each of the prices."""
@@ -104,7 +107,7 @@ class FinitePrices:
         problem = PricedProblem(
             self.grounding, [mixed[number] for number in self._actions], [mixed[number] for number in self._parts]
         )
-        exponent = Scale.first(price.bound for price in mixed).exponent
+        exponent = _moderate(Scale.first(price.bound for price in mixed)).exponent
         core_weights = tuple(
             math.ldexp(weight, exponent - other) for weight, other in zip(weights, self.exponents, strict=True)
         )
@@ -120,6 +123,15 @@ class FinitePrices:
     def _in_core(self, units: Sequence[int]) -> _relax.PricedProblem:
         actions, parts = ([units[number] for number in numbers] for numbers in (self._actions, self._parts))
         return _relax.PricedProblem(self.grounding.handle, actions, parts)
+
+
+def in_units(cost: float, exponent: int) -> int:
+    """Return a cost in whole units of `2**-exponent`, rounded down; at most what the core can hold."""
+    return math.floor(min(math.ldexp(cost, min(exponent, 1000 - math.frexp(cost)[1])), float(MOST_UNITS // 2)))
+
+
+def _moderate(scale: Scale) -> Scale:
+    return Scale(min(scale.exponent, MOST_EXPONENT), scale.cap)
 
 
 def _few_bits(weight: float) -> float:
