@@ -33,6 +33,8 @@ LEAST_LOSS = 2.0**-27
 TIE = 1e-12
 SHARE = 0.9  # of the loss that is allowed, which lines may lose on the best plan known; the rest is for others
 LEAST_PART = 2.0**-10  # of a segment, that it is split off
+FINEST = 1e-9
+"""Of alpha: the width of a segment that is not split any more, however much is left to prove."""
 CENTRE = 1e-3  # next to neutral, break points are as precise as at this distance
 
 
@@ -168,9 +170,10 @@ class AlphaSweep:
     def push(self, segment: Segment) -> None:
         """Put a segment where it belongs: it is done, or it is not."""
         assert self.loss is not None
-        left, right = self.best_on(segment)
-        gap = segment.gap(right.curve) if left is right else math.inf
-        if self.is_narrow(segment) or gap <= self.loss:
+        parts = list(self.parts(segment))
+        gap = max(part.gap for part in parts)
+        is_good = gap <= self.loss and (len(parts) == 1 or self.is_narrow(segment, self.resolution))
+        if is_good or self.is_narrow(segment, FINEST):
             self.done.append(segment)
         else:
             heapq.heappush(self.todo, (-gap, next(self.numbers), segment))
@@ -183,15 +186,19 @@ class AlphaSweep:
     def stretches(self) -> Iterator[Stretch]:
         """Yield the whole interval in order, each part with the best plan known there and how good it is."""
         for segment in self.segments:
-            low, high = segment.low.slope, segment.high.slope
-            left, right = self.best_on(segment)
-            if left is right:
-                yield Stretch(low, high, left, segment.gap(left.curve))
-                continue
-            at = self.crossing(segment, left.curve, right.curve)
-            middle = Point(at, segment.low.bound)
-            yield Stretch(low, at, left, Segment(segment.low, middle).gap(left.curve))
-            yield Stretch(at, high, right, Segment(middle, segment.high).gap(right.curve))
+            yield from self.parts(segment)
+
+    def parts(self, segment: Segment) -> Iterator[Stretch]:
+        """Yield the parts of a segment on which one plan is the best one known: one, or two."""
+        low, high = segment.low.slope, segment.high.slope
+        left, right = self.best_on(segment)
+        if left is right:
+            yield Stretch(low, high, left, segment.gap(left.curve))
+            return
+        at = self.crossing(segment, left.curve, right.curve)
+        middle = Point(at, segment.low.bound)
+        yield Stretch(low, at, left, Segment(segment.low, middle).gap(left.curve))
+        yield Stretch(at, high, right, Segment(middle, segment.high).gap(right.curve))
 
     def beside_the_break(self, segment: Segment, left: PlanCurve, right: PlanCurve) -> list[float]:
         """Return slopes on both sides of the crossing of two plans, as close as a break point shall be known."""
@@ -229,10 +236,10 @@ class AlphaSweep:
         margin = (end - start) * LEAST_PART
         return self.slope(min(max(place, start + margin), end - margin))
 
-    def is_narrow(self, segment: Segment) -> bool:
-        """Tell whether a segment is not to be split any more."""
+    def is_narrow(self, segment: Segment, part: float) -> bool:
+        """Tell whether a segment is no wider than a part of its alpha."""
         low, high = self.place(segment.low.slope), self.place(segment.high.slope)
-        return high - low <= self.resolution * max(_spread(low), _spread(high))
+        return high - low <= part * max(_spread(low), _spread(high))
 
     def place(self, slope: float) -> float:
         """Return where a slope stands between -1, infinitely seeking, and 1, infinitely averse."""
