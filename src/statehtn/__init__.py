@@ -37,7 +37,7 @@ if TYPE_CHECKING:
         relax_to_pddl,
         to_unified_planning,
     )
-    from statehtn.planner import Planner, attitude_map, compare_attitudes, improving, plan, top_plans
+    from statehtn.planner import Planner, attitude_map, compare_attitudes, frontier, improving, plan, top_plans
     from statehtn.result import Result
     from statehtn.risk import (
         OBJECTIVES,
@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     )
     from statehtn.risk.elicitation import Elicited, alpha_of
     from statehtn.sweeps.attitude_map import AttitudeMap
+    from statehtn.sweeps.frontier import Frontier
     from statehtn.tabulate import tabulate_costs
     from statehtn.top_result import RankedPlan, TopPlans
     from statehtn.validation import Validation
@@ -88,6 +89,7 @@ __all__ = [
     "EntropicValueAtRisk",
     "Exponential",
     "Exponentials",
+    "Frontier",
     "HddlWarning",
     "InputError",
     "Keep",
@@ -128,6 +130,7 @@ __all__ = [
     "exists",
     "forall",
     "from_unified_planning",
+    "frontier",
     "improving",
     "objective",
     "plan",
@@ -171,7 +174,7 @@ _MODULES_FOR_LATER = {
         "relax_to_pddl",
         "to_unified_planning",
     ),
-    "planner": ("Planner", "attitude_map", "compare_attitudes", "improving", "plan", "top_plans"),
+    "planner": ("Planner", "attitude_map", "compare_attitudes", "frontier", "improving", "plan", "top_plans"),
     "result": ("Result",),
     "risk": (
         "OBJECTIVES",
@@ -198,6 +201,7 @@ _MODULES_FOR_LATER = {
     ),
     "risk.elicitation": ("Elicited", "alpha_of"),
     "sweeps.attitude_map": ("AttitudeMap",),
+    "sweeps.frontier": ("Frontier",),
     "tabulate": ("tabulate_costs",),
     "top_result": ("RankedPlan", "TopPlans"),
     "validation": ("Validation",),

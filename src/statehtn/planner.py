@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Callable, Iterable, Iterator
-from functools import wraps
-from typing import Concatenate, ParamSpec, Protocol, TypeVar
+from collections.abc import Iterable, Iterator
 
 from statehtn.attitudes import AttitudeComparison, compared_objectives
 from statehtn.expected import function
@@ -14,6 +11,7 @@ from statehtn.limits import Limits
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
+from statehtn.one_shot import one_shot
 from statehtn.pipeline import solve_top
 from statehtn.result import Result
 from statehtn.risk import Attitude, AttitudeName, ObjectiveLike
@@ -32,6 +30,7 @@ from statehtn.settings import (
 )
 from statehtn.sweeps import solutions, solve
 from statehtn.sweeps.attitude_map import RESOLUTION, AttitudeMap, map_attitudes
+from statehtn.sweeps.frontier import Frontier, find_frontier
 from statehtn.top_result import TopPlans
 
 
@@ -287,6 +286,37 @@ class Planner:
         found = map_attitudes(self._session, low, high, eps, resolution, settings, limits, progress)
         return returned(found, interrupt)
 
+    def frontier(
+        self,
+        risk: str,
+        *,
+        precision: float | None = None,
+        time_limit: float | None = None,
+        memory_limit: float | None = None,
+        progress: ProgressCallback | None = None,
+        interrupt: OnInterrupt = "return",
+    ) -> Frontier:
+        """Find the plans of the problem of which no other one has a lower expected cost and a lower risk.
+
+        Args:
+            risk: `cvar 0.95`, the mean of the worst 5 %; `deadline 25`, the probability that the cost is above 25; or
+                `deviation`, the standard deviation.
+            precision: of each search, as for `plan`; so is `progress`, which is told of one search after the other.
+            time_limit: seconds, for grounding and all searches together.
+            memory_limit: resident memory of the whole process in MB (10^6 bytes).
+            interrupt: what a Ctrl-C does: `return` what is known by then, or `raise` a `KeyboardInterrupt` with that as
+                its argument.
+
+        Raises:
+            UsageError: there is no such risk, or an argument is out of its range.
+            InputError, UnsupportedError: as `plan`.
+        """
+        settings = Settings.of(precision=precision)
+        function(progress, "progress")
+        check_interrupt(interrupt)
+        limits = Limits.starting_now(time_limit, memory_limit)
+        return returned(find_frontier(self._session, risk, settings, limits, progress), interrupt)
+
 
 def _returned_last(results: Iterator[Result], interrupt: OnInterrupt) -> Iterator[Result]:
     for result in results:
@@ -294,38 +324,15 @@ def _returned_last(results: Iterator[Result], interrupt: OnInterrupt) -> Iterato
     returned(result, interrupt)
 
 
-P = ParamSpec("P")
-R_co = TypeVar("R_co", covariant=True)
-
-
-class OneShot(Protocol[P, R_co]):
-    """A method of `Planner` as a function of a problem."""
-
-    def __call__(self, problem: Problem, *args: P.args, **kwargs: P.kwargs) -> R_co:
-        """Call the method of a planner for the problem."""
-
-
-def _one_shot(method: Callable[Concatenate[Planner, P], R_co]) -> OneShot[P, R_co]:
-    """Return a method of `Planner` as a function of a problem: a session of one call."""
-
-    @wraps(method)
-    def call(problem: Problem, *args: P.args, **kwargs: P.kwargs) -> R_co:
-        return method(Planner(problem), *args, **kwargs)
-
-    own = inspect.signature(method)
-    first = inspect.Parameter("problem", inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation="Problem")
-    call.__signature__ = own.replace(parameters=[first, *list(own.parameters.values())[1:]])  # type: ignore[attr-defined]
-    call.__qualname__ = method.__name__
-    return call
-
-
-plan = _one_shot(Planner.plan)
+plan = one_shot(Planner, Planner.plan)
 """`Planner.plan` for a problem of one's own: see there."""
-improving = _one_shot(Planner.improving)
+improving = one_shot(Planner, Planner.improving)
 """`Planner.improving` for a problem of one's own: see there."""
-top_plans = _one_shot(Planner.top_plans)
+top_plans = one_shot(Planner, Planner.top_plans)
 """`Planner.top_plans` for a problem of one's own: see there."""
-compare_attitudes = _one_shot(Planner.compare_attitudes)
+compare_attitudes = one_shot(Planner, Planner.compare_attitudes)
 """`Planner.compare_attitudes` for a problem of one's own: see there."""
-attitude_map = _one_shot(Planner.attitude_map)
+attitude_map = one_shot(Planner, Planner.attitude_map)
 """`Planner.attitude_map` for a problem of one's own: see there."""
+frontier = one_shot(Planner, Planner.frontier)
+"""`Planner.frontier` for a problem of one's own: see there."""

@@ -48,6 +48,7 @@ def many() -> dict[str, object]:
         "invalid": statehtn.validate(problem, wrong),
         "top": statehtn.top_plans(problem, 1),
         "ranked": statehtn.top_plans(problem, 1)[0],
+        "frontier": statehtn.frontier(problem, "deviation"),
         "map": statehtn.attitude_map(problem, -1, 1, eps=1.0),
         "comparison": statehtn.compare_attitudes(problem),
     }

@@ -79,6 +79,7 @@ def calls(folder: Path) -> dict[str, Call]:
             {"alpha": 1.0, "attitudes": ["averse"], "solver": "state", "heuristic": "lmcut", "search": "astar"}
             | limits,
         ),
+        "frontier": (statehtn.frontier, [problem, "cvar 0.9"], {"precision": 1e-3} | limits),
         "attitude_map": (
             statehtn.attitude_map,
             [problem, -0.5, 0.5],

@@ -56,6 +56,24 @@ class ExtremeCost(AdditivePrices):
 
 
 @dataclass(frozen=True, slots=True)
+class Variance(AdditivePrices):
+    """The variance of a cost, in its unit squared."""
+
+    def risk_cost(self, law: CostLaw) -> float:
+        """Return the variance.
+
+        Raises:
+            InputError: it is infinite.
+        """
+        if math.isinf(law.variance):
+            raise InputError(f"{law} has an infinite variance")
+        return law.variance
+
+    def __str__(self) -> str:
+        return "the variance"
+
+
+@dataclass(frozen=True, slots=True)
 class Minorant(AdditivePrices):
     """Prices at one end of an interval of `x = 1 / alpha`: see `statehtn.sweeps.minorants`.
 

@@ -6,16 +6,18 @@ import time
 from collections.abc import Iterator
 from dataclasses import fields, replace
 
+from statehtn.compatible import heuristics_for
 from statehtn.core.progress import Progress
 from statehtn.core.search import last_of
 from statehtn.effort import SearchEffort, Statistics
 from statehtn.limits import Limits
 from statehtn.model.status import Status
-from statehtn.pipeline import solutions
+from statehtn.pipeline import solutions, solve_top
 from statehtn.result import Result
-from statehtn.risk import AdditiveObjective
+from statehtn.risk import AdditiveObjective, Keep, Objective
 from statehtn.session import ProgressCallback, Session
-from statehtn.settings import Settings
+from statehtn.settings import Settings, TopSettings
+from statehtn.top_result import TopPlans
 
 
 class Runs:
@@ -51,23 +53,35 @@ class Runs:
         problem = self.session.problem
         return problem is not None and bool(problem.scenarios)
 
-    def run(self, prices: AdditiveObjective) -> Result:
-        """Search for the plan of least cost at some prices, and prove that it is."""
-        settings = replace(self.settings, objective=prices, search="astar")
-        return last_of(self._results(settings, prices, every_plan=False))
+    def run(self, objective: Objective, keep: tuple[Keep, ...] = ()) -> Result:
+        """Search for the best plan by an objective, of those that keep budgets, and prove that it is."""
+        takes = heuristics_for(self.settings.solver, "astar", objective, keep)
+        heuristic = self.settings.heuristic if self.settings.heuristic in takes else takes[0]
+        settings = replace(self.settings, objective=objective, keep=keep, search="astar", heuristic=heuristic)
+        return last_of(self._results(settings, every_plan=False))
 
-    def improving(self, prices: AdditiveObjective) -> Iterator[Result]:
+    def improving(self, objective: Objective) -> Iterator[Result]:
         """Search as the settings say; yield better and better plans where that is `anytime`, and last how it ended."""
-        settings = replace(self.settings, objective=prices)
-        return self._results(settings, prices, every_plan=settings.search == "anytime")
+        settings = replace(self.settings, objective=objective)
+        return self._results(settings, every_plan=settings.search == "anytime")
 
-    def _results(self, settings: Settings, prices: AdditiveObjective, every_plan: bool) -> Iterator[Result]:
+    def top(self, objective: Objective, k: int) -> TopPlans:
+        """Search for the k best plans by an objective."""
+        settings = TopSettings.of(k, objective, precision=self.settings.precision)
+        result = solve_top(self.session, settings, self.limits)
+        self.statistics = _together(self.statistics, result.statistics)
+        self.stopped = result.stopped
+        self.count += 1
+        return result
+
+    def _results(self, settings: Settings, every_plan: bool) -> Iterator[Result]:
         before = self.statistics
         for result in solutions(self.session, settings, self.limits, self._told(), every_plan):
             self.statistics = _together(before, result.statistics)
             self.stopped, self.unread = result.stopped, result.unread
             yield result
-        self.session.forget(prices)
+        if isinstance(settings.objective, AdditiveObjective):
+            self.session.forget(settings.objective)
         self.count += 1
 
     def _told(self) -> ProgressCallback | None:
