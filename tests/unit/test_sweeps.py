@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import json
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 import pytest
@@ -148,6 +149,30 @@ def test_an_interruption_ends_a_sweep_with_what_is_known() -> None:
         statehtn.attitude_map(read("av", "p9"), -1, 1, progress=interrupt, interrupt="raise")
     assert isinstance(caught.value.args[0], statehtn.AttitudeMap)
     assert caught.value.args[0].stopped is Status.INTERRUPTED
+
+
+def test_an_interruption_between_two_runs_loses_nothing(p1: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a Ctrl-C does that comes while a plan is valued."""
+    for after in range(1, 30, 4):
+        calls = itertools.count(1)
+
+        def at(curve: PlanCurve, slope: float, *, after: int = after, calls: Iterator[int] = calls) -> float:
+            if next(calls) == after:
+                raise KeyboardInterrupt
+            return curve._at(slope)
+
+        with monkeypatch.context() as patched:
+            patched.setattr(PlanCurve, "at", at)
+            found = statehtn.attitude_map(p1, -1, 1)
+        assert (found.status, found.stopped) == (Status.SOLVED, Status.INTERRUPTED)
+        assert (found[0].low, found[-1].high) == (-1, 1)
+        with monkeypatch.context() as patched:
+            calls = itertools.count(1)
+            patched.setattr(PlanCurve, "at", functools.partialmethod(at, calls=calls, after=after))
+            result = statehtn.plan(p1, objective="evar 0.05")
+        assert result.stopped in (None, Status.INTERRUPTED)
+        assert result.status in (Status.OPTIMAL, Status.SOLVED, Status.INTERRUPTED)
+        assert result.lower_bound is None or result.lower_bound <= 19.0570403
 
 
 def test_progress_tells_of_the_whole_sweep() -> None:

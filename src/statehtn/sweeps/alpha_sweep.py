@@ -19,6 +19,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from statehtn.found_plan import FoundPlan
+from statehtn.limits import ENDINGS, status_of
 from statehtn.model.status import Status
 from statehtn.result import Result
 from statehtn.sweeps.plan_curve import PlanCurve, bisected
@@ -81,6 +82,22 @@ class AlphaSweep:
 
     def sweep(self) -> None:
         """Search until every plan is proven to be good enough, or a limit is reached."""
+        try:
+            self.begin()
+            while self.todo and self.runs.stopped is None:
+                parts = list(self.refined(self.todo[0][-1]))
+                heapq.heappop(self.todo)
+                for part in parts:
+                    self.push(part)
+        except ENDINGS as ending:  # between two runs
+            self.runs.stopped = status_of(ending)
+            if not self.known:
+                self.status = self.runs.stopped
+            elif not self.segments:
+                self.begin()  # which searches no more
+
+    def begin(self) -> None:
+        """Search at the ends, and for the neutral agent between them."""
         points: list[Point] = []
         for slope in self.slopes:
             points.append(self.searched(slope, points[-1].bound if points else 0.0))
@@ -93,10 +110,6 @@ class AlphaSweep:
         self.loss = max(PART_OF_RANGE * gain, least) if self.loss is None else self.loss
         for low, high in itertools.pairwise(points):
             self.push(Segment(low, high))
-        while self.todo and self.runs.stopped is None:
-            _, _, segment = heapq.heappop(self.todo)
-            for part in self.refined(segment):
-                self.push(part)
 
     def refined(self, segment: Segment) -> Iterator[Segment]:
         """Prove more of a segment, or yield its parts."""

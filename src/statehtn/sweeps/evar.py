@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 
 from statehtn.compatible import LABEL_SWITCHES
 from statehtn.found_plan import FoundPlan, priced
-from statehtn.limits import Limits
+from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.status import Status
 from statehtn.pipeline import solutions
 from statehtn.result import Result
@@ -114,6 +114,14 @@ class EvarSweep:
 
     def results(self) -> Iterator[Result]:
         """Yield a result after every run that found a better plan, and last how the sweep ended."""
+        try:
+            yield from self.better_and_better()
+        except ENDINGS as ending:  # between two runs
+            self.runs.stopped = status_of(ending)
+            yield self.result(self.runs.stopped)
+
+    def better_and_better(self) -> Iterator[Result]:
+        """Yield what `results` does, unless something ends it between two runs."""
         for first in self.runs.improving(Neutral()):
             if self.runs.has_scenarios:  # certainty equivalents do not add up
                 yield from self.by_labels()

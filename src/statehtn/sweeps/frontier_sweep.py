@@ -20,7 +20,9 @@ import itertools
 import math
 from dataclasses import dataclass
 
-from statehtn.found_plan import FoundPlan
+from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan
+from statehtn.limits import ENDINGS, status_of, watched
+from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.scenario_cost import sum_of
 from statehtn.model.status import Status
 from statehtn.risk import Keep, Neutral, Objective
@@ -74,10 +76,22 @@ class FrontierSweep:
         self.measure = measure
         self.status = Status.UNSOLVABLE
         """Why there is no plan, where there is none."""
+        self.known: list[FrontierPoint] = []
         self.proven = -math.inf  # of all plans, by the latest objective
 
     def sweep(self) -> Chain:
         """Search until the frontier is complete, or a limit is reached; return what was found."""
+        try:
+            return self.chain()
+        except ENDINGS as ending:  # between two runs, or while the law of a plan was worked out
+            self.runs.stopped = status_of(ending)
+            points = _undominated(self.known)
+            if not points:
+                self.status = self.runs.stopped
+            return Chain(points, [math.inf] * (len(points) - 1))
+
+    def chain(self) -> Chain:
+        """Return what `sweep` does, unless something ends it between two runs."""
         first = self.searched(Neutral())
         if first is None:
             return Chain([], [])
@@ -101,8 +115,11 @@ class FrontierSweep:
     def point(self, found: FoundPlan) -> FrontierPoint:
         """Return a plan with its mean and its risk."""
         assert found.plan.costs is not None
-        law = sum_of(found.plan.costs)
-        return FrontierPoint(law.mean, self.measure.of(law), found)
+        law = sum_of(found.plan.costs) if found.plan.costs else CostDistribution.certain(0)
+        with watched(self.runs.limits.with_grace(SECONDS_TO_VALIDATE)):
+            point = FrontierPoint(law.mean, self.measure.of(law), found)
+        self.known.append(point)
+        return point
 
     def between(self, left: FrontierPoint, right: FrontierPoint) -> Chain:
         """Return the frontier from one plan to another of higher mean and lower risk."""
