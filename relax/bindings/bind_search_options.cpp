@@ -110,6 +110,7 @@ void bind_search_options(nb::module_& module) {
                             .def_rw("tolerance", &relax::LabelSearchOptions::tolerance)
                             .def_rw("tdg_bound", &relax::LabelSearchOptions::tdg_bound)
                             .def_rw("inherit_h", &relax::LabelSearchOptions::inherit_h)
+                            .def_rw("follow_forced", &relax::LabelSearchOptions::follow_forced)
                             .def_rw("selective", &relax::LabelSearchOptions::selective)
                             .def_rw("limits_labels", &relax::LabelSearchOptions::limits_labels);
     def_heuristic(label_search);

@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint64_t kWorkOfALabel = 200;
 constexpr std::uint64_t kWorkOfAModel = 100;  // for each action and method
 
+constexpr std::uint32_t kMostForcedSteps = 1000;  // recursion that is forced may have no end
+
 // By ActionId: actions that certainly cost nothing may be executed at once; between sequences, where order makes a
 // difference, those without a name.
 std::vector<bool> free_actions(const Valuation& valuation, std::span<const std::optional<ActionName>> names,
@@ -114,7 +116,7 @@ std::optional<StopReason> LabelSearch::search(NetworkId from) {
     if (!is_wanted(bound)) {
         return std::nullopt;
     }
-    push(*labels_.add({root, start, ActionLists::kEmpty, LabelId{0}, {}, bound, 0, true, false}));
+    push(*labels_.add({root, start, ActionLists::kEmpty, LabelId{0}, nullptr, bound, 0, true, false}));
     while (!open_.is_empty() && open_.top().priority < cutoff_) {
         if (const auto stop = limits_.check()) {
             return stop;
@@ -208,14 +210,45 @@ void LabelSearch::find_edges(NodeId node) {
     progression_.expand(labels_.node(node).state, labels_.node(node).network, successors_);
     edges_.clear();
     for (const Successor& successor : successors_) {
-        const NodeId to = labels_.find_node(successor.state, successor.network);
-        for (std::size_t price = 0; options_.tdg_bound && price < bounds_.size(); ++price) {
-            Cost& least = labels_.node(to).least[price];
-            least = std::max(least, bounds_[price][successor.network]);
+        steps_.clear();
+        executions_.clear();
+        if (const auto end = follow(successor)) {
+            const NodeId to = labels_.find_node(end->state, end->network);
+            for (std::size_t price = 0; options_.tdg_bound && price < bounds_.size(); ++price) {
+                Cost& least = labels_.node(to).least[price];
+                least = std::max(least, bounds_[price][end->network]);
+            }
+            edges_.push_back(labels_.make_edge(to, steps_, executions_));
         }
-        edges_.push_back({to, successor.step, successor.action, labels_.store(successor.due_parts)});
     }
     labels_.set_edges(node, edges_);
+}
+
+// Go on from a successor as long as it has a single one itself: no label ends between, and no bound is asked for.
+// Returns where that ends; nothing where it is a dead end.
+std::optional<LabelSearch::Place> LabelSearch::follow(const Successor& successor) {
+    take(successor);
+    Place place{successor.state, successor.network};
+    for (std::uint32_t step = 0; options_.follow_forced && step < kMostForcedSteps; ++step) {
+        limits_.stop_if_reached();
+        if (progression_.networks().is_empty(place.network) ||
+            !progression_.expand_if_forced(place.state, place.network, forced_)) {
+            break;
+        }
+        if (forced_.empty()) {
+            return std::nullopt;
+        }
+        take(forced_.front());
+        place = {forced_.front().state, forced_.front().network};
+    }
+    return place;
+}
+
+void LabelSearch::take(const Successor& successor) {
+    steps_.push_back(successor.step);
+    if (successor.action) {
+        executions_.push_back({*successor.action, labels_.store(successor.due_parts)});
+    }
 }
 
 // A plan from the parent that goes on with the edge costs what the edge costs, and what the next node is completed for.
@@ -226,14 +259,19 @@ void LabelSearch::inherit(NodeId parent, const Edge& edge) {
     const std::span<const Cost> from = labels_.node(parent).least;
     const std::span<Cost> to = labels_.node(edge.to).least;
     for (std::size_t price = 0; price < from.size(); ++price) {
-        to[price] = std::max(to[price], from[price] - valuation_.prices()[price]->cost(edge.action, edge.due_parts));
+        to[price] = std::max(to[price], from[price] - edge.costs[price]);
     }
 }
 
 void LabelSearch::generate(LabelId parent, const Edge& edge) {
     ++statistics_.generated;
     const Label& from = labels_[parent];
-    const ValueId value = edge.action ? valuation_.extend(from.value, *edge.action, edge.due_parts) : from.value;
+    ValueId value = from.value;
+    ActionListId actions = from.actions;
+    for (const Execution& execution : edge.executions) {
+        value = valuation_.extend(value, execution.action, execution.due_parts);
+        actions = list_after(actions, execution.action);
+    }
     const bool is_plan = progression_.networks().is_empty(labels_.node(edge.to).network);
     const Worth bound = is_plan ? valuation_.worth(value) : valuation_.bound(value, labels_.to_come(edge.to), 0);
     // Of a plan it is the worth itself: its parent's bound, a sum in another order, may be off by a rounding error.
@@ -241,8 +279,7 @@ void LabelSearch::generate(LabelId parent, const Edge& edge) {
     if (!is_wanted(known)) {
         return;
     }
-    const auto id =
-        labels_.add({edge.to, value, list_after(from.actions, edge.action), parent, edge.step, known, 0, true, false});
+    const auto id = labels_.add({edge.to, value, actions, parent, &edge, known, 0, true, false});
     if (!id) {
         return;
     }
@@ -271,6 +308,7 @@ void LabelSearch::add_plan(LabelId id) {
     const auto same =
         std::ranges::find_if(plans_, [&](LabelId other) { return labels_[other].actions == labels_[id].actions; });
     if (same != plans_.end()) {
+        has_pruned_ = has_pruned_ || options_.count == 1;
         if (labels_[*same].bound <= worth) {
             return;
         }
@@ -304,12 +342,12 @@ void LabelSearch::count_proven() {
     }
 }
 
-// The list of the actions after a step, which executed one or none. All lists are one where any plan will do.
-ActionListId LabelSearch::list_after(ActionListId before, std::optional<ActionId> action) {
-    if (options_.count == 1 || !action || !names_[*action]) {
+// The list of the actions after one more. All lists are one where any plan will do.
+ActionListId LabelSearch::list_after(ActionListId before, ActionId action) {
+    if (options_.count == 1 || !names_[action]) {
         return before;
     }
-    const ActionName name = *names_[*action];
+    const ActionName name = *names_[action];
     return options_.tells_sequences() ? lists_.append(before, name) : lists_.insert(before, name);
 }
 
@@ -321,8 +359,8 @@ void LabelSearch::push(LabelId id) {
 
 std::vector<SearchStep> LabelSearch::steps_to(LabelId goal) const {
     std::vector<SearchStep> steps;
-    for (LabelId id = goal; labels_[id].parent != id; id = labels_[id].parent) {
-        steps.push_back(labels_[id].step);
+    for (LabelId id = goal; labels_[id].edge != nullptr; id = labels_[id].parent) {
+        steps.insert(steps.end(), labels_[id].edge->steps.rbegin(), labels_[id].edge->steps.rend());
     }
     std::reverse(steps.begin(), steps.end());
     return steps;

@@ -40,6 +40,18 @@ void LabelSpace::set_edges(NodeId node, std::span<const Edge> edges) {
 
 std::span<const CostPartId> LabelSpace::store(std::span<const CostPartId> parts) { return copied(parts_, parts); }
 
+Edge LabelSpace::make_edge(NodeId to, std::span<const SearchStep> steps, std::span<const Execution> executions) {
+    const std::span<Cost> costs = costs_.allocate(price_count_);
+    std::ranges::fill(costs, 0);
+    for (std::size_t price = 0; price < price_count_; ++price) {
+        for (const Execution& execution : executions) {
+            const Cost cost = valuation_.prices()[price]->cost(execution.action, execution.due_parts);
+            costs[price] = add_bounds(costs[price], cost);
+        }
+    }
+    return {to, copied(steps_, steps), copied(executions_, executions), costs};
+}
+
 std::optional<LabelId> LabelSpace::add(const Label& label) {
     if (valuation_.is_total_order()) {
         return add_in_order(label);
@@ -73,6 +85,7 @@ std::optional<LabelId> LabelSpace::add_in_order(const Label& label) {
     const Worth worth = valuation_.worth(label.value);
     const auto same = std::ranges::find(kept, label.actions, &Kept::actions);
     if (same != kept.end()) {
+        has_pruned_ = has_pruned_ || count_ == 1;  // lists of actions are not told apart then
         if (valuation_.worth(same->value) <= worth) {
             return std::nullopt;
         }
@@ -99,7 +112,9 @@ bool LabelSpace::is_superfluous(const Kept& label, const std::vector<Kept>& kept
     if (count_ == 1 && limits_labels_) {
         values_.clear();
         std::ranges::transform(kept, std::back_inserter(values_), &Kept::value);
-        return valuation_.are_as_good(values_, label.value, to_come);
+        const bool is_superfluous = valuation_.are_as_good(values_, label.value, to_come);
+        has_pruned_ = has_pruned_ || is_superfluous;
+        return is_superfluous;
     }
     lists_.clear();
     for (const Kept& other : kept) {

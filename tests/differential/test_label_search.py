@@ -18,7 +18,7 @@ from statehtn.risk import Utility
 from tests.differential.oracles import LIMITS, must_cost, must_have_ended
 from tests.strategies import problems, utilities
 
-SWITCHES = (None, "inherit_h", "tdg_bound", "selective", "networks")
+SWITCHES = (None, "inherit_h", "tdg_bound", "selective", "follow_forced", "networks")
 
 
 @given(problem=problems(), utility=utilities(), variant=st.sampled_from(SWITCHES))

@@ -34,6 +34,8 @@ class BoundSwitches(ProgressionSwitches):
 class TopSwitches(BoundSwitches):
     """Refinements of the search for the best plans; stubborn sets are for plans that are multisets."""
 
+    follow_forced: bool = True
+    """Pass through nodes with a single successor."""
     selective: bool = True
     """Ask the heuristic rarely while it rarely exceeds the cheap bounds."""
     limits_labels: bool = True

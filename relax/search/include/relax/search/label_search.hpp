@@ -75,7 +75,13 @@ private:
     void ask(LabelSpace::Node& node);
     std::uint64_t work() const;
     void expand(LabelId id);
+    struct Place {
+        StateId state;
+        NetworkId network;
+    };
     void find_edges(NodeId node);
+    std::optional<Place> follow(const Successor& successor);
+    void take(const Successor& successor);
     void inherit(NodeId parent, const Edge& edge);
     void generate(LabelId parent, const Edge& edge);
     bool is_wanted(Worth bound);
@@ -83,7 +89,7 @@ private:
     void note_proven(Worth bound);
     void count_proven();
     void push(LabelId id);
-    ActionListId list_after(ActionListId before, std::optional<ActionId> action);
+    ActionListId list_after(ActionListId before, ActionId action);
     std::vector<SearchStep> steps_to(LabelId goal) const;
 
     const AnalysedProblem& problem_;
@@ -103,6 +109,9 @@ private:
     bool has_pruned_ = false;     // there may be more plans than those that were found ...
     bool has_left_out_ = false;   // ... even while fewer were found than are wanted
     std::vector<Successor> successors_;
+    std::vector<Successor> forced_;
+    std::vector<SearchStep> steps_;
+    std::vector<Execution> executions_;
     std::vector<Edge> edges_;
 };
 

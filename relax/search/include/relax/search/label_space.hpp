@@ -21,25 +21,31 @@ namespace relax {
 
 using LabelId = Id<struct LabelTag>;
 
+// An action that is executed, and the parts of its cost that are due then.
+struct Execution {
+    ActionId action;
+    std::span<const CostPartId> due_parts;
+};
+
+// What leads from a node to the next: a step, and those that are forced after it.
+struct Edge {
+    NodeId to;
+    std::span<const SearchStep> steps;
+    std::span<const Execution> executions;
+    std::span<const Cost> costs;  // by price: what these cost
+};
+
 // A way to a node: what it has cost, and which actions it has executed as far as plans are told apart by them.
 struct Label {
     NodeId node;
     ValueId value;
     ActionListId actions;
-    LabelId parent;  // itself for the root
-    SearchStep step;
+    LabelId parent;       // itself for the root
+    const Edge* edge;     // from the parent; none for the root
     Worth bound;          // of the worth of each completion
     std::uint32_t stage;  // of that bound
     bool is_kept;
     bool is_expanded;
-};
-
-// What leads from a node to the next, and what is due on the way.
-struct Edge {
-    NodeId to;
-    SearchStep step;
-    std::optional<ActionId> action;
-    std::span<const CostPartId> due_parts;
 };
 
 // Nodes, each a state and a network, and for each the labels that are kept: the ways to it that may lead to plans that
@@ -82,7 +88,9 @@ public:
     // The node of a state and a network; new ones have `least` 0.
     NodeId find_node(StateId state, NetworkId network);
     void set_edges(NodeId node, std::span<const Edge> edges);
+    // Copies that stay.
     std::span<const CostPartId> store(std::span<const CostPartId> parts);
+    Edge make_edge(NodeId to, std::span<const SearchStep> steps, std::span<const Execution> executions);
 
     // Add a label, unless it is superfluous; those that become superfluous are no longer kept.
     std::optional<LabelId> add(const Label& label);
@@ -110,6 +118,8 @@ private:
     RunArena<Cost> costs_;
     RunArena<Edge> edges_;
     RunArena<CostPartId> parts_;
+    RunArena<SearchStep> steps_;
+    RunArena<Execution> executions_;
     SegmentedArray<Label> labels_;
     std::vector<ValueId> values_;
     std::vector<ActionListId> lists_;

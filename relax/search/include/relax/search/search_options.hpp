@@ -73,6 +73,7 @@ struct LabelSearchOptions : ProgressionSwitches, BoundSwitches {     // stubborn
     const HeuristicInfo* heuristic = &heuristic_named("potential");  // admissible
     std::optional<Worth> upper_bound;                                // only plans that are worth less are wanted
     double tolerance = 0;                                            // see `better_than`
+    bool follow_forced = true;                                       // pass through nodes with a single successor
     bool selective = true;      // ask the heuristic rarely while it exceeds the cheap bounds rarely
     bool limits_labels = true;  // leave out labels where as many as plans are wanted are as good
 
