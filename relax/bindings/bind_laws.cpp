@@ -46,10 +46,11 @@ void bind_law_table(nb::module_& module) {
     nb::class_<LawTable>(module, "LawTable")
         .def(
             "__init__",
-            [](LawTable* self, double last, bool is_flat_beyond, std::optional<std::size_t> most_outcomes) {
-                new (self) LawTable({last, is_flat_beyond, most_outcomes.value_or(relax::kAnyNumber)});
+            [](LawTable* self, double last, bool is_flat_beyond, std::optional<std::size_t> most_outcomes,
+               bool keeps_means) {
+                new (self) LawTable({last, is_flat_beyond, most_outcomes.value_or(relax::kAnyNumber), keeps_means});
             },
-            "last"_a = kNoBound, "is_flat_beyond"_a = false, "most_outcomes"_a = nb::none())
+            "last"_a = kNoBound, "is_flat_beyond"_a = false, "most_outcomes"_a = nb::none(), "keeps_means"_a = false)
         .def(
             "add",
             [](LawTable& self, const std::vector<double>& at, const std::vector<double>& probabilities) {
@@ -150,6 +151,7 @@ void bind_law_valuation(nb::module_& module) {
         .def_rw("least_bound", &LawOptions::least_bound)
         .def_rw("mean_bound", &LawOptions::mean_bound)
         .def_rw("graph_bound", &LawOptions::graph_bound)
+        .def_rw("label_outcomes", &LawOptions::label_outcomes)
         .def_rw("graph_outcomes", &LawOptions::graph_outcomes)
         .def_rw("network_outcomes", &LawOptions::network_outcomes);
 
@@ -170,6 +172,7 @@ void bind_law_valuation(nb::module_& module) {
         .def(
             "law", [](const LawValuation& self, relax::ValueId value) { return outcomes_of(self.law(value)); },
             "value"_a)
+        .def_prop_ro("is_exact", &LawValuation::is_exact)
         .def(
             "law_of_task",
             [](LawValuation& self, relax::TaskId task) {

@@ -12,6 +12,7 @@ namespace {
 // Of all laws of the graph together, about: where there are many methods, each has fewer.
 constexpr std::size_t kOutcomesInAll = std::size_t{1} << 21;
 constexpr std::size_t kFewestOutcomes = 16;
+constexpr double kUnitsPerStep = 16;  // of means by which tasks are put in order
 
 // The graph of laws keeps the largest of several probabilities at each cost, and of that no mean beyond a bound.
 LawDetail detail_of_bounds(const LawDetail& detail, std::size_t most_outcomes) {
@@ -56,6 +57,9 @@ LawsToCome::LawsToCome(const PricedProblem& least, const CostLaws& costs, const 
       network_table_(detail_of_bounds(detail, network_outcomes)),
       actions_(costs.in(table_, costs.actions)) {
     assert(costs.actions.size() == least.problem.action_count());
+    for (const LawId law : actions_) {
+        means_.push_back(static_cast<Cost>(table_[law].mean() * kUnitsPerStep));
+    }
 }
 
 void LawsToCome::begin(const TaskNetworks& networks, Limits& limits) {
@@ -68,7 +72,8 @@ const Law& LawsToCome::of(NetworkId network, Limits& limits) { return networks_-
 const Law& LawsToCome::of_task(TaskId task, Limits& limits) {
     if (!graph_) {
         const std::vector<Cost> least = tdg_bound(least_.problem, least_.prices.actions, limits);
-        graph_.emplace(least_.problem, table_, actions_, least, limits);
+        const std::vector<Cost> means = tdg_bound(least_.problem, means_, limits);
+        graph_.emplace(least_.problem, table_, actions_, least, means, limits);
     }
     return table_[(*graph_)[task]];
 }

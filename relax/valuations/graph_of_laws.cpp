@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <deque>
+#include <queue>
 #include <utility>
 
 #include "relax/base/cost.hpp"
@@ -12,13 +12,13 @@ namespace relax {
 
 namespace {
 
-constexpr std::uint8_t kMostRounds = 32;
+constexpr std::uint8_t kMostRounds = 250;
 constexpr double kLift = 0x1p-32;
 
 }  // namespace
 
 GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::span<const LawId> action_laws,
-                         std::span<const Cost> least, Limits& limits)
+                         std::span<const Cost> least, std::span<const Cost> means, Limits& limits)
     : problem_(problem),
       table_(table),
       laws_(problem.task_count()),
@@ -29,16 +29,22 @@ GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::spa
         is_known_[task_of(action)] = true;
     }
     const auto methods_with = invert(problem.method_subtasks, problem.task_count(), limits);
-    const std::vector<TaskId> order = subtasks_first();
-    std::deque<TaskId> queue(order.begin(), order.end());
+    // Those with low means first: what one of them adds to the others, it adds before these are looked at, mostly.
+    const auto later = [&](TaskId one, TaskId other) {
+        return means[one] != means[other] ? means[one] > means[other] : one > other;
+    };
+    std::priority_queue<TaskId, std::vector<TaskId>, decltype(later)> queue(later);
     std::vector<bool> is_queued(problem.task_count(), false);
-    for (const TaskId task : queue) {
-        is_queued[task] = true;
+    for (const TaskId task : problem.compounds()) {
+        if (means[task] < kInfinity) {
+            queue.push(task);
+            is_queued[task] = true;
+        }
     }
     while (!queue.empty()) {
         limits.stop_if_reached();
-        const TaskId task = queue.front();
-        queue.pop_front();
+        const TaskId task = queue.top();
+        queue.pop();
         is_queued[task] = false;
         if (rounds_[task] > kMostRounds) {
             continue;
@@ -52,9 +58,9 @@ GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::spa
         }
         for (const MethodId method : methods_with[task]) {
             const TaskId parent = problem.method_task[method];
-            if (!is_queued[parent]) {
+            if (!is_queued[parent] && means[parent] < kInfinity) {
                 is_queued[parent] = true;
-                queue.push_back(parent);
+                queue.push(parent);
             }
         }
     }
@@ -63,35 +69,6 @@ GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::spa
             laws_[task] = lifted(laws_[task]);
         }
     }
-}
-
-// Compound tasks, each after those that it can be decomposed into where there is no cycle.
-std::vector<TaskId> GraphOfLaws::subtasks_first() const {
-    std::vector<TaskId> order;
-    std::vector<bool> is_seen(problem_.task_count(), false);
-    std::vector<std::pair<TaskId, bool>> stack;  // whether its subtasks are done
-    for (const TaskId root : problem_.compounds()) {
-        stack.emplace_back(root, false);
-        while (!stack.empty()) {
-            const auto [task, is_done] = stack.back();
-            stack.pop_back();
-            if (is_done) {
-                order.push_back(task);
-                continue;
-            }
-            if (problem_.is_primitive(task) || is_seen[task]) {
-                continue;
-            }
-            is_seen[task] = true;
-            stack.emplace_back(task, true);
-            for (const MethodId method : problem_.methods_of(task)) {
-                for (const TaskId subtask : problem_.method_subtasks[method]) {
-                    stack.emplace_back(subtask, false);
-                }
-            }
-        }
-    }
-    return order;
 }
 
 // Whether the task has changed.

@@ -31,7 +31,9 @@ LawId LawTable::add(std::span<const double> at, std::span<const double> probabil
     at_.clear();
     probability_.clear();
     beyond_probability_ = beyond_cost_ = 0.0;
+    is_whole_ = true;
     for (std::size_t i = 0; i < at.size(); ++i) {
+        is_whole_ = is_whole_ && (at[i] == std::floor(at[i]) || at[i] > detail_.last);
         if (at[i] > detail_.last) {
             beyond_probability_ += probabilities[i];
             beyond_cost_ += probabilities[i] * at[i];
@@ -69,7 +71,8 @@ void LawTable::convolve(const Law& one, const Law& other, Limits& limits) {
     const double least = one.least() + other.least();
     const double places = std::min(one.most() + other.most(), detail_.last) - least + 1;
     const auto pairs = static_cast<double>(one.size()) * static_cast<double>(other.size());
-    if (places <= std::max(kFewPlaces, kPlacesPerPair * pairs)) {
+    is_whole_ = one.is_whole && other.is_whole;
+    if (is_whole_ && places <= std::max(kFewPlaces, kPlacesPerPair * pairs)) {
         add_densely(one, other, least, limits);
     } else {
         add_sparsely(one, other, limits);
@@ -112,7 +115,18 @@ void LawTable::add_sparsely(const Law& one, const Law& other, Limits& limits) {
         }
         limits.stop_if_reached();
     }
-    std::ranges::sort(pairs_);
+    // Runs that are in order are merged, two at a time.
+    merged_.resize(pairs_.size());
+    for (std::size_t run = one.size(); run < pairs_.size(); run *= 2) {
+        for (std::size_t begin = 0; begin < pairs_.size(); begin += 2 * run) {
+            const auto at = [this](std::size_t place) {
+                return pairs_.begin() + static_cast<std::ptrdiff_t>(std::min(place, pairs_.size()));
+            };
+            std::merge(at(begin), at(begin + run), at(begin + run), at(begin + 2 * run),
+                       merged_.begin() + static_cast<std::ptrdiff_t>(begin));
+        }
+        pairs_.swap(merged_);
+    }
     for (const auto& [cost, probability] : pairs_) {
         if (cost > detail_.last) {
             beyond_probability_ += probability;
@@ -126,14 +140,27 @@ void LawTable::add_sparsely(const Law& one, const Law& other, Limits& limits) {
     }
 }
 
-// Of the law being made: put together the outcomes in each cell of a coarser grid, at the least of them.
-void LawTable::round_down() {
-    for (double width = 2; at_.size() > detail_.most_outcomes; width *= 2) {
+// Of the law being made: the outcomes in each cell of a coarser grid become one.
+void LawTable::put_together() {
+    if (at_.size() <= detail_.most_outcomes) {
+        return;
+    }
+    has_put_together_ = true;
+    is_whole_ = is_whole_ && !detail_.keeps_means;
+    double width = std::max(2.0, (at_.back() - at_.front()) / static_cast<double>(detail_.most_outcomes));
+    for (; at_.size() > detail_.most_outcomes; width *= 2) {
         std::size_t kept = 0;
+        double cell = std::floor(at_[0] / width);
         for (std::size_t i = 1; i < at_.size(); ++i) {
-            if (std::floor(at_[i] / width) == std::floor(at_[kept] / width)) {
-                probability_[kept] += probability_[i];
+            const double next = std::floor(at_[i] / width);
+            if (next == cell) {
+                const double sum = probability_[kept] + probability_[i];
+                if (detail_.keeps_means) {
+                    at_[kept] += (at_[i] - at_[kept]) * (probability_[i] / sum);
+                }
+                probability_[kept] = sum;
             } else {
+                cell = next;
                 ++kept;
                 at_[kept] = at_[i];
                 probability_[kept] = probability_[i];
@@ -146,7 +173,7 @@ void LawTable::round_down() {
 
 // Take up the law that was made.
 LawId LawTable::intern() {
-    round_down();
+    put_together();
     if (beyond_probability_ > 0) {
         at_.push_back(detail_.is_flat_beyond ? detail_.last + 1 : beyond_cost_ / beyond_probability_);
         probability_.push_back(beyond_probability_);
@@ -171,7 +198,7 @@ LawId LawTable::intern() {
         excess[i] = excess[i + 1] + above[i] * (at[i + 1] - at[i]);
     }
     const auto id = static_cast<LawId>(laws_.size());
-    laws_.push_back({at, probability, above, excess});
+    laws_.push_back({at, probability, above, excess, is_whole_});
     table_.add(hash, id, [this](LawId law) { return hash_of(laws_[law].at, laws_[law].probability); });
     return id;
 }

@@ -12,6 +12,15 @@ namespace relax {
 
 namespace {
 
+LawDetail detail_of_labels(const LawObjective& objective, const LawOptions& options) {
+    LawDetail detail = objective.detail();
+    if (objective.is_concave()) {
+        detail.most_outcomes = options.label_outcomes;
+        detail.keeps_means = true;
+    }
+    return detail;
+}
+
 // The c for which E max(X, c) = mean, rounded down, if it is above the least outcome.
 double floor_for_mean(const Law& law, double mean) {
     // The mean rises with the floor: find the outcomes between which it gets there.
@@ -41,7 +50,7 @@ LawValuation::LawValuation(const PricedProblem& least, const PricedProblem& mean
     : units_per_step_(units_per_step),
       objective_(std::move(objective)),
       options_(options),
-      so_far_(costs, objective_->detail()),
+      so_far_(costs, detail_of_labels(*objective_, options_)),
       to_come_(least, costs, objective_->detail(), options.graph_outcomes, options.network_outcomes) {
     if (options.least_bound && !needs_means()) {
         least_index_ = prices_.size();

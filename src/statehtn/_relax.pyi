@@ -497,7 +497,11 @@ class MeanDeviation(Valuation):
 
 class LawTable:
     def __init__(
-        self, last: float = float("inf"), is_flat_beyond: bool = False, most_outcomes: int | None = None
+        self,
+        last: float = float("inf"),
+        is_flat_beyond: bool = False,
+        most_outcomes: int | None = None,
+        keeps_means: bool = False,
     ) -> None: ...
     def add(self, at: Sequence[float], probabilities: Sequence[float]) -> int: ...
     def sum(self, one: int, other: int) -> int: ...
@@ -560,6 +564,10 @@ class LawOptions:
     @graph_bound.setter
     def graph_bound(self, arg: bool, /) -> None: ...
     @property
+    def label_outcomes(self) -> int: ...
+    @label_outcomes.setter
+    def label_outcomes(self, arg: int, /) -> None: ...
+    @property
     def graph_outcomes(self) -> int: ...
     @graph_outcomes.setter
     def graph_outcomes(self, arg: int, /) -> None: ...
@@ -583,6 +591,8 @@ class LawValuation(Valuation):
         options: LawOptions,
     ) -> None: ...
     def law(self, value: int) -> tuple[list[float], list[float]]: ...
+    @property
+    def is_exact(self) -> bool: ...
     def law_of_task(self, task: int) -> tuple[list[float], list[float]]: ...
 
 class Budgets(Valuation):
@@ -594,44 +604,6 @@ class Budgets(Valuation):
         budgets: Sequence[tuple[float, float]],
         options: LawOptions,
     ) -> None: ...
-
-class LabelStatistics(SearchStatistics):
-    @property
-    def found(self) -> int: ...
-    @property
-    def proven(self) -> int: ...
-
-class LabelSearchResult:
-    @property
-    def stop(self) -> StopReason | None: ...
-    @property
-    def is_all(self) -> bool: ...
-    @property
-    def statistics(self) -> LabelStatistics: ...
-    @property
-    def plans(self) -> list[SearchResult]: ...
-    @property
-    def worths(self) -> list[int]: ...
-
-def label_search(
-    problem: GroundProblem,
-    valuation: Valuation,
-    names: Sequence[int | None],
-    options: LabelSearchOptions,
-    seconds: float | None = None,
-    memory_bytes: int | None = None,
-    steps: int | None = None,
-    progress: object | None = None,
-) -> LabelSearchResult: ...
-def plan_based_search(
-    problem: GroundProblem,
-    valuation: Valuation,
-    options: PlanBasedOptions,
-    seconds: float | None = None,
-    memory_bytes: int | None = None,
-    steps: int | None = None,
-    progress: object | None = None,
-) -> LabelSearchResult: ...
 
 class ScenarioOptions:
     def __init__(self) -> None: ...
@@ -675,3 +647,41 @@ class ScenarioLaws(Valuation):
         options: ScenarioOptions,
         law_options: LawOptions,
     ) -> None: ...
+
+class LabelStatistics(SearchStatistics):
+    @property
+    def found(self) -> int: ...
+    @property
+    def proven(self) -> int: ...
+
+class LabelSearchResult:
+    @property
+    def stop(self) -> StopReason | None: ...
+    @property
+    def is_all(self) -> bool: ...
+    @property
+    def statistics(self) -> LabelStatistics: ...
+    @property
+    def plans(self) -> list[SearchResult]: ...
+    @property
+    def worths(self) -> list[int]: ...
+
+def label_search(
+    problem: GroundProblem,
+    valuation: Valuation,
+    names: Sequence[int | None],
+    options: LabelSearchOptions,
+    seconds: float | None = None,
+    memory_bytes: int | None = None,
+    steps: int | None = None,
+    progress: object | None = None,
+) -> LabelSearchResult: ...
+def plan_based_search(
+    problem: GroundProblem,
+    valuation: Valuation,
+    options: PlanBasedOptions,
+    seconds: float | None = None,
+    memory_bytes: int | None = None,
+    steps: int | None = None,
+    progress: object | None = None,
+) -> LabelSearchResult: ...

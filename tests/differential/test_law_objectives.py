@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import statehtn._relax as _relax
 from statehtn import Problem, Status, validate
-from statehtn.core import law_grid
+from statehtn.core import law_grid, law_labels
 from statehtn.core.grounding import ground
 from statehtn.core.label_run import PRECISION
 from statehtn.core.label_search import search_labels
@@ -107,11 +107,13 @@ def test_utilities_that_are_functions(problem: Problem, falls: list[int]) -> Non
 
 
 @given(problem=PROBLEMS, text=st.one_of(*LAWS.values()), keep=st.one_of(st.just(()), budgets()))
-def test_coarse_grids_become_exact(problem: Problem, text: str, keep: tuple[Budget, ...]) -> None:
+def test_coarse_laws_become_exact(problem: Problem, text: str, keep: tuple[Budget, ...]) -> None:
     wanted = objective(text)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(law_grid, "EXACT_STEPS", 2)
         patch.setattr(law_grid, "FIRST_STEPS", 2)
+        patch.setattr(law_labels, "FIRST_OUTCOMES", 2)
+        patch.setattr(law_labels, "MORE_OUTCOMES", 2)
         outcome = search(problem, wanted, keep)
     check(problem, outcome, wanted, best_plans(problem, exact_objective(text), keep=keep))
 

@@ -103,6 +103,20 @@ def test_smaller_laws_are_rounded_down(parts: list[Law], most: int) -> None:
         assert less <= above(exact, cost) + ROUNDING
 
 
+@given(parts=st.lists(laws(most=60), min_size=2, max_size=4), most=st.integers(1, 10))
+def test_smaller_laws_that_keep_their_means_are_less_risky(parts: list[Law], most: int) -> None:
+    table, total = _relax.LawTable(most_outcomes=most, keeps_means=True), 0
+    for part in parts:
+        total = table.sum(total, add(table, part))
+    at, probabilities = table.outcomes(total)
+    assert len(at) <= most
+    exact = summed(*parts)
+    assert sum(p * cost for cost, p in zip(at, probabilities, strict=True)) == pytest.approx(float(mean(exact)))
+    for cost in at:
+        less = sum(p * max(other - cost, 0.0) for other, p in zip(at, probabilities, strict=True))
+        assert less <= excess(exact, Fraction(cost)) + ROUNDING
+
+
 @given(objective=objectives(), parts=st.lists(laws(), min_size=1, max_size=4))
 def test_values(objective: tuple[_relax.LawObjective, Value], parts: list[Law]) -> None:
     core, value = objective

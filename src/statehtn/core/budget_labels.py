@@ -12,6 +12,7 @@ from statehtn.core.law_grid import LawGrid
 from statehtn.core.law_labels import LawLabels, law_options
 from statehtn.core.switches import LabelSwitches
 from statehtn.limits import Limits
+from statehtn.model.cost.law import CostLaw
 from statehtn.risk.keep import Keep
 
 
@@ -55,6 +56,10 @@ class BudgetLabels(Labels):
     def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
         """Yield what searches with a single price find; their plans need not keep the budgets."""
         return self._labels.support(limits, share)
+
+    def law(self, trace: _relax.SearchResult) -> CostLaw:
+        """Return the law of a plan that was found."""
+        return self._grid.total(trace) or self._labels.law(trace)
 
     def value(self, trace: _relax.SearchResult) -> float:
         """Return the value of a plan that was found."""

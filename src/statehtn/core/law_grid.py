@@ -172,6 +172,19 @@ class LawGrid:
         """The largest cost of an action, in the domain's unit."""
         return max((at[-1] for at, _ in self._laws), default=0.0) * float(self.grid.step)
 
+    def total(self, trace: _relax.SearchResult) -> CostLaw | None:
+        """Return the law of a plan that was found; None where the grid is not exact."""
+        if not self.grid.is_exact:
+            return None
+        table = _relax.LawTable()
+        total = 0
+        used = [*(self._actions[one] for one in trace.actions), *(self._parts[one] for one in trace.due_parts)]
+        for number in used:
+            total = table.sum(total, table.add(*self._laws[number]))
+        at, probabilities = table.outcomes(total)
+        costs = (float(self.grid.step * int(cost)) for cost in at)
+        return CostDistribution.of(zip(probabilities, costs, strict=True))
+
     @cached_property
     def least(self) -> _relax.PricedProblem:
         """The problem at the least cost of everything, in steps."""

@@ -12,9 +12,15 @@ from statehtn.core.law_grid import LawGrid
 from statehtn.core.law_objectives import MOST_TABLED, OBJECTIVES
 from statehtn.core.switches import LabelSwitches, LawSwitches, set_switches
 from statehtn.limits import Limits
+from statehtn.model.cost.law import CostLaw
 from statehtn.risk.callable_utility import CallableUtility
 from statehtn.risk.objective import Objective
 
+FIRST_OUTCOMES = 256
+"""Of the law of what a way has cost at first, where the objective is averse to risk: costs near each other become their
+mean, which no such objective finds worse. So what is proven is a lower bound, as on a coarse grid ..."""
+MORE_OUTCOMES = 16
+"""... and by so much their number grows where that leaves a gap."""
 MOST_LIKELY = 1 - 1e-9
 """The quantile up to which a Python function is tabled at first, of plans whose cost has no end."""
 
@@ -33,6 +39,8 @@ class LawLabels(Labels):
         super().__init__(grounding, objective)
         self.grid = LawGrid.first(grounding, limits)
         self._options = law_options(switches)
+        self._options.label_outcomes = FIRST_OUTCOMES
+        self._valuation: _relax.LawValuation | None = None  # the last one
         self._reach = 0.0  # the cost up to which a Python function is tabled
 
     @property
@@ -40,22 +48,33 @@ class LawLabels(Labels):
         """The laws on the present grid, and how the objective values them."""
         grid = self.grid
         objective = OBJECTIVES[type(self.objective)](self.objective, grid.grid.step, self._reach or grid.largest)
-        return _relax.LawValuation(grid.least, grid.means, grid.units_per_step, grid.costs, objective, self._options)
+        self._valuation = _relax.LawValuation(
+            grid.least, grid.means, grid.units_per_step, grid.costs, objective, self._options
+        )
+        return self._valuation
 
     def refine(self, limits: Limits) -> bool:
-        """Take a finer grid, or ask a Python function for larger costs."""
+        """Take a finer grid, let laws have more outcomes, or ask a Python function for larger costs."""
         finer = self.grid.finer(limits)
         if finer is not None:
             self.grid = finer
+            return True
+        if self._valuation is not None and not self._valuation.is_exact:
+            self._options.label_outcomes *= MORE_OUTCOMES
             return True
         is_tabled = isinstance(self.objective, CallableUtility)
         self._reach = 2 * (self._reach or self.grid.largest)
         return is_tabled and self._reach <= MOST_TABLED * float(self.grid.grid.step)
 
+    def law(self, trace: _relax.SearchResult) -> CostLaw:
+        """Return the law of a plan that was found."""
+        return self.grid.total(trace) or super().law(trace)
+
     def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
         """Yield what searches with a single price for each action find."""
         for support in super().support(limits, share):
-            for law in map(self.law, support.traces):
+            laws = map(self.law, support.traces) if isinstance(self.objective, CallableUtility) else ()
+            for law in laws:
                 most = law.most if math.isfinite(law.most) else law.quantile(MOST_LIKELY)
                 self._reach = max(self._reach, 2 * most)
             yield support

@@ -31,7 +31,7 @@ struct Budget {
 // way's probability. One way at a time: that of two ways each keeps what the other does not makes neither as good.
 class Budgets final : public Valuation {
 public:
-    // `least`: what costs are at least, in steps. `inner` must live longer.
+    // `least`: see LawsToCome. `inner` must live longer.
     Budgets(Valuation& inner, const PricedProblem& least, const CostLaws& costs, std::vector<Budget> budgets,
             const LawOptions& options);
 

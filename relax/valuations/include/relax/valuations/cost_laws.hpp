@@ -36,6 +36,7 @@ public:
     LawsSoFar(const CostLaws& costs, const LawDetail& detail);
 
     const Law& operator[](LawId law) const { return table_[law]; }
+    bool is_exact() const { return !table_.has_put_together(); }
     // After an action, where these parts of its cost were due. Throws Stopped.
     LawId extend(LawId law, ActionId action, std::span<const CostPartId> due_parts, Limits& limits);
 
@@ -48,8 +49,8 @@ private:
 // Lower bounds of the laws of what is still to come, by the graph of laws: it is made once.
 class LawsToCome {
 public:
-    // Laws have so many outcomes at most, those of tasks and those of networks. `least`: the same costs as prices, of
-    // each the least one in steps.
+    // Laws have so many outcomes at most, those of tasks and those of networks. `least`: the same costs as prices,
+    // of each the least one in steps.
     LawsToCome(const PricedProblem& least, const CostLaws& costs, const LawDetail& detail, std::size_t task_outcomes,
                std::size_t network_outcomes);
 
@@ -61,6 +62,7 @@ public:
 
 private:
     const PricedProblem& least_;
+    std::vector<Cost> means_;  // by ActionId, nearly
     LawTable table_;
     LawTable network_table_;
     std::vector<LawId> actions_;  // by ActionId

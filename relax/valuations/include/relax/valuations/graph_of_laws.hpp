@@ -30,16 +30,15 @@ namespace relax {
 // 2^-32 of each compound task's probability is moved from the largest costs to the least one.
 class GraphOfLaws {
 public:
-    // `action_laws`: by ActionId, of `table`, where all others are kept, too. `least`: by TaskId, see tdg_bound.
-    // Throws Stopped.
+    // `action_laws`: by ActionId, of `table`, where all others are kept, too. `least`, `means`: by TaskId, see
+    // tdg_bound, of the least costs in steps and of expected costs in any unit. Throws Stopped.
     GraphOfLaws(const GroundProblem& problem, LawTable& table, std::span<const LawId> action_laws,
-                std::span<const Cost> least, Limits& limits);
+                std::span<const Cost> least, std::span<const Cost> means, Limits& limits);
 
     // Of a task that has a decomposition.
     LawId operator[](TaskId task) const { return laws_[task]; }
 
 private:
-    std::vector<TaskId> subtasks_first() const;
     bool update(TaskId task, Limits& limits);
     LawId highest(LawId one, LawId other);
     LawId lifted(LawId law);

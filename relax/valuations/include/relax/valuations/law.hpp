@@ -14,13 +14,15 @@ namespace relax {
 inline constexpr double kLawRounding = 0x1p-40;
 
 // The law of a cost on a grid: ascending outcomes in steps of the grid, each with its probability. It stays where its
-// table keeps it (LawTable). Outcomes are whole numbers below 2^53, so that their sums are exact; only the last one may
-// not be: it stands, at their mean, for all that lie beyond a bound where nobody tells them from each other.
+// table keeps it (LawTable). Outcomes are whole numbers below 2^53, so that their sums are exact, where none stand for
+// several, at their mean. The last one may do so: it stands for all that lie beyond a bound where nobody tells them
+// from each other.
 struct Law {
     std::span<const double> at;
     std::span<const double> probability;
     std::span<const double> above;   // of each outcome: the probability of more
     std::span<const double> excess;  // likewise: the expected excess over it, E max(X - at, 0), in steps
+    bool is_whole = true;            // all outcomes but the last one, if it lies beyond
 
     std::size_t size() const { return at.size(); }
     double least() const { return at.front(); }

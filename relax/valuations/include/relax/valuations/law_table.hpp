@@ -26,8 +26,11 @@ struct LawDetail {
     double last = std::numeric_limits<double>::infinity();
     // ... or one step further, where nothing that lies beyond is worse than anything else that does.
     bool is_flat_beyond = false;
-    // Laws with more outcomes are made smaller by rounding costs down: for lower bounds only.
+    // Laws with more outcomes are made smaller: costs that are near each other become the least of them, so that the
+    // law is below the true one in the usual stochastic order ...
     std::size_t most_outcomes = kAnyNumber;
+    // ... or their mean, so that it is in the increasing convex order.
+    bool keeps_means = false;
 };
 
 // Laws of costs, equal ones once, and the laws of sums of independent costs, each remembered. Probabilities are not
@@ -41,6 +44,8 @@ public:
 
     std::size_t size() const { return laws_.size(); }
     const LawDetail& detail() const { return detail_; }
+    // Whether a law has been made smaller.
+    bool has_put_together() const { return has_put_together_; }
     const Law& operator[](LawId id) const { return laws_[id]; }
 
     // Outcomes ascending and whole, probabilities positive, summing to 1.
@@ -58,7 +63,7 @@ private:
     void convolve(const Law& one, const Law& other, Limits& limits);
     void add_densely(const Law& one, const Law& other, double least, Limits& limits);
     void add_sparsely(const Law& one, const Law& other, Limits& limits);
-    void round_down();
+    void put_together();
     LawId intern();
     std::uint64_t hash_of(std::span<const double> at, std::span<const double> probabilities) const;
 
@@ -74,8 +79,11 @@ private:
     std::vector<double> probability_;
     std::vector<double> dense_;
     std::vector<std::pair<double, double>> pairs_;
+    std::vector<std::pair<double, double>> merged_;
     double beyond_probability_ = 0.0;
     double beyond_cost_ = 0.0;  // its part of the mean
+    bool is_whole_ = true;
+    bool has_put_together_ = false;
 };
 
 }  // namespace relax

@@ -52,6 +52,8 @@ public:
 
     // Of a way.
     const Law& law(ValueId value) const { return so_far_[LawId(std::uint32_t{value})]; }
+    // Whether laws have all their outcomes.
+    bool is_exact() const { return so_far_.is_exact(); }
     // Of a task in the graph of laws, whatever the networks are. Throws Stopped.
     const Law& law_of_task(TaskId task, Limits& limits) { return to_come_.of_task(task, limits); }
 
