@@ -19,6 +19,7 @@ from statehtn.model.cost.scenario_cost import total_of
 from statehtn.model.status import Status
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.objective import Objective
+from statehtn.risk.utility import Utility
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +76,16 @@ class Labels(ABC):
             limits: those of the run.
             share: of the time that is left for each of them; they are no more than a beginning.
         """
-        run = StagedRun(price(self.grounding, Neutral(), limits), limits.for_a_part(share))
+        yield from self.cheapest(Neutral(), limits, share)
+
+    def cheapest(self, utility: Utility, limits: Limits, share: float) -> Iterator[Support]:
+        """Yield what A* by the prices of a utility finds; arguments as of `support`.
+
+        Raises:
+            InputError: a cost has no finite price; the message names the action.
+            LimitReached: a limit was reached.
+        """
+        run = StagedRun(price(self.grounding, utility, limits), limits.for_a_part(share))
         for outcome in run.outcomes(
             [core_options(SEARCHES["astar"][0], self.grounding, "auto", 1.0, SearchSwitches())]
         ):

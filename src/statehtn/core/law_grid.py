@@ -96,9 +96,12 @@ class Grid:
 
     def outcomes(self, law: CostLaw) -> Outcomes:
         """Return a law on the grid."""
+        first, *others = parts_of([law])
+        if not others:
+            return self._part(first)
         table = _relax.LawTable()
-        total = 0
-        for part in parts_of([law]):
+        total = table.add(*self._part(first))
+        for part in others:
             total = table.sum(total, table.add(*self._part(part)))
         return table.outcomes(total)
 
@@ -128,28 +131,28 @@ class LawGrid:
         grounding: the ground problem.
         grid: the grid.
         limits: they hold while laws are put on it.
-        known: laws by their identity that are on this grid already; what others have in common with it.
+        known: laws that are on this grid already; what others have in common with it.
     """
 
     def __init__(
-        self, grounding: Grounding, grid: Grid, limits: Limits, known: dict[int, Outcomes] | None = None
+        self, grounding: Grounding, grid: Grid, limits: Limits, known: dict[CostLaw, Outcomes] | None = None
     ) -> None:
         self.grounding = grounding
         self.grid = grid
         known = {} if known is None else known
-        numbers: dict[int, int] = {}
+        numbers: dict[CostLaw, int] = {}
         self._laws: list[Outcomes] = []
 
         def numbered(laws: Sequence[CostLaw]) -> list[int]:
             found = []
             for law in laws:
-                number = numbers.get(id(law))
+                number = numbers.get(law)
                 if number is None:
                     limits.check()
-                    number = numbers[id(law)] = len(self._laws)
-                    if id(law) not in known:
-                        known[id(law)] = grid.outcomes(law)
-                    self._laws.append(known[id(law)])
+                    number = numbers[law] = len(self._laws)
+                    if law not in known:
+                        known[law] = grid.outcomes(law)
+                    self._laws.append(known[law])
                 found.append(number)
             return found
 

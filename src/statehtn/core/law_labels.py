@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
@@ -11,16 +12,23 @@ from statehtn.core.labels import Labels, Support
 from statehtn.core.law_grid import LawGrid
 from statehtn.core.law_objectives import MOST_TABLED, OBJECTIVES
 from statehtn.core.switches import LabelSwitches, LawSwitches, set_switches
+from statehtn.errors import InputError
 from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
 from statehtn.risk.callable_utility import CallableUtility
+from statehtn.risk.exponential import Exponential
 from statehtn.risk.objective import Objective
+from statehtn.risk.utility import Attitude
 
 FIRST_OUTCOMES = 256
 """Of the law of what a way has cost at first, where the objective is averse to risk: costs near each other become their
 mean, which no such objective finds worse. So what is proven is a lower bound, as on a coarse grid ..."""
 MORE_OUTCOMES = 16
 """... and by so much their number grows where that leaves a gap."""
+MANY_NODES = 256
+"""Where a search by the expected cost has expanded so many, the label search is long, and good plans help it on ..."""
+AVERSE = (0.3, 1.0, 3.0)
+"""... such as those of exponential agents of so much alpha, divided by the standard deviation of the first plan."""
 MOST_LIKELY = 1 - 1e-9
 """The quantile up to which a Python function is tabled at first, of plans whose cost has no end."""
 
@@ -71,13 +79,20 @@ class LawLabels(Labels):
         return self.grid.total(trace) or super().law(trace)
 
     def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
-        """Yield what searches with a single price for each action find."""
+        """Yield what A* by the expected cost finds, and by prices of averse agents where that has taken a while."""
+        deviation, takes_long = 0.0, False
         for support in super().support(limits, share):
-            laws = map(self.law, support.traces) if isinstance(self.objective, CallableUtility) else ()
-            for law in laws:
-                most = law.most if math.isfinite(law.most) else law.quantile(MOST_LIKELY)
-                self._reach = max(self._reach, 2 * most)
+            takes_long = support.effort.expanded >= MANY_NODES
+            if takes_long or isinstance(self.objective, CallableUtility):
+                for law in map(self.law, support.traces):
+                    deviation = law.standard_deviation
+                    most = law.most if math.isfinite(law.most) else law.quantile(MOST_LIKELY)
+                    self._reach = max(self._reach, 2 * most)
             yield support
+        if takes_long and 0 < deviation < math.inf:
+            for slope in AVERSE:
+                with suppress(InputError):  # a cost may have no price for such an agent
+                    yield from self.cheapest(Exponential(Attitude.AVERSE, slope / deviation), limits, share)
 
 
 def law_options(switches: LabelSwitches) -> _relax.LawOptions:
