@@ -151,6 +151,18 @@ def test_continuous_laws_are_rounded_down() -> None:
                 assert below <= law.cdf(float(grid.step) * (step + 1)) + 1e-12
 
 
+@pytest.mark.parametrize("cost", ["19.4", "1234.5", "0.125"])
+def test_lists_of_outcomes_beside_continuous_laws_are_exact(cost: str) -> None:
+    stats = pytest.importorskip("scipy.stats")
+    certain = CostDistribution.certain(float(cost))
+    grid = Grid.first([certain, CostDistribution.from_scipy(stats.gamma(2, scale=3))])
+    assert not grid.is_exact
+    finer = grid.finer(50.0)
+    for one in (grid, finer) if finer else (grid,):
+        ((at,), _) = one.outcomes(certain)
+        assert one.step * int(at) == Fraction(cost)
+
+
 def test_the_graph_of_laws_is_a_bound_that_recursion_does_not_spoil() -> None:
     """`twice` does `once` two times or more; `once` costs 1 or 3, or 2."""
     grounding = ground(read_hddl_text(TWICE, "(define (problem p) (:domain d) (:htn :subtasks (twice)))"))

@@ -70,25 +70,28 @@ class Labels(ABC):
         """
 
     def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
-        """Yield what searches with a single price for each action find; here A* by the expected cost.
+        """Yield what searches with a single price for each action find; here A* by the expected cost, or greedy search.
 
         Args:
             limits: those of the run.
             share: of the time that is left for each of them; they are no more than a beginning.
         """
-        yield from self.cheapest(Neutral(), limits, share)
+        is_answered = False
+        for support in self.cheapest(Neutral(), limits, share):
+            is_answered = is_answered or bool(support.traces) or support.unsolvable
+            yield support
+        if not is_answered:
+            yield from self.cheapest(Neutral(), limits, share, "greedy")
 
-    def cheapest(self, utility: Utility, limits: Limits, share: float) -> Iterator[Support]:
-        """Yield what A* by the prices of a utility finds; arguments as of `support`.
+    def cheapest(self, utility: Utility, limits: Limits, share: float, search: str = "astar") -> Iterator[Support]:
+        """Yield what a search by the prices of a utility finds; arguments as of `support`.
 
         Raises:
             InputError: a cost has no finite price; the message names the action.
             LimitReached: a limit was reached.
         """
         run = StagedRun(price(self.grounding, utility, limits), limits.for_a_part(share))
-        for outcome in run.outcomes(
-            [core_options(SEARCHES["astar"][0], self.grounding, "auto", 1.0, SearchSwitches())]
-        ):
+        for outcome in run.outcomes([core_options(SEARCHES[search][0], self.grounding, "auto", 1.0, SearchSwitches())]):
             stopped = None if outcome.stopped is Status.TIME_LIMIT else outcome.stopped
             found = outcome.plans.results
             yield Support(found, None, outcome.effort, stopped, outcome.status is Status.UNSOLVABLE)

@@ -71,13 +71,16 @@ class Grid:
         costs = {as_decimal(cost) for law in listed for _, cost in law.outcomes}
         tops = [_top(law, TAIL) for law in parts if not isinstance(law, CostDistribution)]
         largest = max([*map(float, costs), *tops], default=0.0) or 1.0
-        exact = _common_step(costs) if len(listed) == len(parts) else None
-        if exact is not None and largest > exact * MOST_STEPS:
-            exact = None
+        common = _common_step(costs)
+        if common is not None and largest > common * MOST_STEPS:
+            common = None
+        exact = common if len(listed) == len(parts) else None
         if exact is not None and largest <= exact * EXACT_STEPS:
             return Grid(exact, exact, TAIL)
         step = Fraction(2) ** math.floor(math.log2(largest / FIRST_STEPS))
-        return Grid(step if exact is None else exact * max(1, math.floor(step / exact)), exact, TAIL)
+        if common is not None:  # so that at least the lists of outcomes are exact at some time, or from the first
+            step = common * math.floor(step / common) if step > common else common / math.ceil(common / step)
+        return Grid(step, exact, TAIL)
 
     def finer(self, largest: float) -> Grid | None:
         """Return a finer grid; None where this one is exact, or as fine as can be."""

@@ -9,7 +9,7 @@ from itertools import chain
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels, Support
-from statehtn.core.law_grid import MEAN_BITS, Grid, LawGrid
+from statehtn.core.law_grid import MEAN_BITS, Grid, LawGrid, Outcomes
 from statehtn.core.law_labels import MOST_LIKELY, law_options
 from statehtn.core.law_objectives import MOST_TABLED, OBJECTIVES
 from statehtn.core.pricing import ROUNDING, PricedProblem, RiskCost
@@ -125,7 +125,7 @@ class ScenarioLabels(Labels):
 
     def _set_grid(self, grid: Grid, limits: Limits) -> None:
         self._grid = grid
-        known: dict[int, tuple[list[float], list[float]]] = {}
+        known: dict[CostLaw, Outcomes] = {}
         self._grids = [LawGrid(scenario.grounding, grid, limits, known) for scenario in self._given]
 
     @property
