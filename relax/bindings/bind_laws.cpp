@@ -19,6 +19,7 @@
 #include "id_caster.hpp"
 #include "python_limits.hpp"
 #include "relax/valuations/budgets.hpp"
+#include "relax/valuations/evar.hpp"
 #include "relax/valuations/expected_disutility.hpp"
 #include "relax/valuations/law_orders.hpp"
 #include "relax/valuations/law_valuation.hpp"
@@ -127,6 +128,8 @@ void bind_objectives(nb::module_& module) {
         .def(nb::init<double, double>(), "level"_a, "step"_a);
     nb::class_<relax::MeanCvarOfLaw, LawObjective>(module, "MeanCvarOfLaw")
         .def(nb::init<double, double, double>(), "level"_a, "weight"_a, "step"_a);
+    nb::class_<relax::EvarOfLaw, LawObjective>(module, "EvarOfLaw")
+        .def(nb::init<double, double>(), "level"_a, "step"_a);
 }
 
 void bind_law_valuation(nb::module_& module) {

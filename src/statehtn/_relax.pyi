@@ -532,6 +532,9 @@ class QuantileOfLaw(LawObjective):
 class MeanCvarOfLaw(LawObjective):
     def __init__(self, level: float, weight: float, step: float) -> None: ...
 
+class EvarOfLaw(LawObjective):
+    def __init__(self, level: float, step: float) -> None: ...
+
 class CostLaws:
     def __init__(
         self, laws: Sequence[tuple[Sequence[float], Sequence[float]]], actions: Sequence[int], parts: Sequence[int]

@@ -28,9 +28,11 @@ from statehtn.risk.objectives import objective
 from tests.all_laws import Best, Budget, all_outlooks, best_plans
 from tests.differential.oracles import LIMITS, must_have_ended
 from tests.exact_objectives import SLACK, exact_objective, of_utility
-from tests.lotteries import LAWS, budgets, lottery_problems
+from tests.lotteries import LAWS as OF_LAWS_ALONE
+from tests.lotteries import SWEPT, budgets, lottery_problems
 from tests.strategies import problems
 
+LAWS = {**OF_LAWS_ALONE, **SWEPT}
 SWITCHES = [field.name for kind in (LawSwitches, TopSwitches) for field in fields(kind)]
 PROBLEMS = st.one_of(lottery_problems(), problems())
 ORDERS = [("total",), ("none", "partial")]

@@ -11,6 +11,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import statehtn._relax as _relax
+from tests.exact_laws import Laws
+from tests.exact_objectives import exact_objective
 from tests.grid_laws import Law, above, add, cvar, excess, laws, mean, quantile, shifted, summed
 
 ROUNDING = 1e-9
@@ -26,7 +28,7 @@ def objectives(draw: st.DrawFn) -> tuple[_relax.LawObjective, Value]:
     """An objective of the core, and its value by fractions. The step of the grid is a quarter."""
     step, level = Fraction(1, 4), Fraction(draw(st.sampled_from(("0.5", "0.9", "0.95", "0.05", "0.999"))))
     budget = draw(st.integers(0, 24))
-    match draw(st.sampled_from(("deadline", "overrun", "piecewise", "quantile", "cvar", "mean-cvar", "table"))):
+    match draw(st.sampled_from(("deadline", "overrun", "piecewise", "quantile", "cvar", "mean-cvar", "evar", "table"))):
         case "deadline":
             late = _relax.ExpectedDisutility(0.0, 0.0, [(float(budget), 1.0, 0.0)])
             return late, lambda law: above(law, budget)
@@ -55,6 +57,10 @@ def objectives(draw: st.DrawFn) -> tuple[_relax.LawObjective, Value]:
             weight = Fraction(draw(st.integers(0, 4)), 4)
             mixed = _relax.MeanCvarOfLaw(float(level), float(weight), float(step))
             return mixed, lambda law: step * ((1 - weight) * mean(law) + weight * cvar(law, level))
+        case "evar":
+            exact = exact_objective(f"evar {float(level)!r}").value
+            evar = _relax.EvarOfLaw(float(level), float(step))
+            return evar, lambda law: exact(Laws().of({step * cost: p for cost, p in law.items()}))
     table = list(accumulate(draw(st.lists(st.integers(0, 3), min_size=2, max_size=30)), initial=-5))
     tabled = _relax.TabulatedDisutility([float(value) for value in table])
     return tabled, expected(lambda cost: Fraction(table[min(cost, len(table) - 1)]))

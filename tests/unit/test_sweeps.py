@@ -85,6 +85,19 @@ def sum_of(problem: Problem, plan: statehtn.Plan) -> CostSum:
     return CostSum(tuple(statehtn.validate(problem, plan).costs))
 
 
+def test_evar_beside_budgets_and_of_several_plans(p1: Problem) -> None:
+    laws = [sum_of(p1, plan) for plan in all_plans(p1)]
+    values = sorted(law.evar(0.5) for law in laws)
+    best = statehtn.top_plans(p1, 20, objective="evar 0.5")
+    assert best.is_all
+    assert [ranked.value for ranked in best] == pytest.approx(values, abs=1e-6)
+    kept = [law.evar(0.5) for law in laws if law.cdf(16) >= 0.15]  # which leaves out the certain plan
+    assert len(kept) < len(laws)
+    result = statehtn.plan(p1, objective="evar 0.5", keep="16 0.15")
+    assert result.status is statehtn.Status.OPTIMAL
+    assert result.value == pytest.approx(min(kept), abs=1e-6)
+
+
 @pytest.mark.parametrize("problem", [("marine", "p1"), ("satellite", "RA-3obs-1sat-3mod-unordered"), ("av", "p5")])
 def test_evar_of_larger_problems_is_proven_in_few_runs(problem: tuple[str, str]) -> None:
     planner = Planner(read(*problem))

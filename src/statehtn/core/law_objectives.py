@@ -13,6 +13,7 @@ import statehtn._relax as _relax
 from statehtn.risk.callable_utility import CallableUtility
 from statehtn.risk.cvar import ConditionalValueAtRisk
 from statehtn.risk.deadline import Deadline
+from statehtn.risk.evar import EntropicValueAtRisk
 from statehtn.risk.mean_cvar import MeanCvar
 from statehtn.risk.overrun import Overrun
 from statehtn.risk.piecewise import Piecewise
@@ -52,6 +53,10 @@ def _mean_cvar(objective: MeanCvar | ConditionalValueAtRisk, step: Fraction, _: 
     return _relax.MeanCvarOfLaw(objective.level, objective.weight, float(step))
 
 
+def _evar(objective: EntropicValueAtRisk, step: Fraction, _: float) -> _relax.LawObjective:
+    return _relax.EvarOfLaw(objective.level, float(step))
+
+
 def _callable(objective: CallableUtility, step: Fraction, reach: float) -> _relax.LawObjective:
     count = min(MOST_TABLED, math.ceil(reach / float(step)) + 1)
     table = [-objective.utility(float(step * number)) for number in range(count)]
@@ -67,6 +72,7 @@ OBJECTIVES: Mapping[type, Callable[[Any, Fraction, float], _relax.LawObjective]]
         Quantile: _quantile,
         ConditionalValueAtRisk: _mean_cvar,
         MeanCvar: _mean_cvar,
+        EntropicValueAtRisk: _evar,
         CallableUtility: _callable,
     }
 )

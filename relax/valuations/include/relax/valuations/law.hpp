@@ -56,11 +56,17 @@ public:
     // E f(max(X, floor)).
     template <typename Function>
     double expectation(Function f) const {
-        double sum = (law_->total() - law_->above_of(below_)) * f(floor_);
-        for (std::size_t i = below_; i < law_->size(); ++i) {
-            sum += law_->probability[i] * f(law_->at[i]);
-        }
+        double sum = 0.0;
+        for_each([&](double probability, double cost) { sum += probability * f(cost); });
         return sum;
+    }
+    // f(probability, cost) for each outcome.
+    template <typename Function>
+    void for_each(Function f) const {
+        f(law_->total() - law_->above_of(below_), floor_);
+        for (std::size_t i = below_; i < law_->size(); ++i) {
+            f(law_->probability[i], law_->at[i]);
+        }
     }
 
     // Begin anew, at any cost.
