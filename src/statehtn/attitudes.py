@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 from statehtn.errors import UsageError
 from statehtn.expected import items, number, one_of, whole_number
 from statehtn.found_plan import PricedStep, value_of
+from statehtn.model.cost.law import CostLaw
 from statehtn.model.status import Status
 from statehtn.result import Result
 from statehtn.risk import (
@@ -20,6 +21,7 @@ from statehtn.risk import (
     ObjectiveLike,
     Utility,
     ValueUnit,
+    adds_up,
     agent_name,
     agent_order,
     agents_of,
@@ -131,29 +133,32 @@ class AttitudeComparison:
         if not (mine and its):
             return ()
         matcher = SequenceMatcher(None, tokens(mine.steps), tokens(its.steps), autojunk=False)
+        price = _price_of(mine.objective, (priced.law for priced in (*mine.steps, *its.steps)))
         found = []
         for tag, start, end, other_start, other_end in matcher.get_opcodes():
             if tag != "equal":
                 own, others = tuple(mine.steps[start:end]), tuple(its.steps[other_start:other_end])
-                found.append(Difference(own, others, self._price(own, mine), self._price(others, mine)))
+                found.append(Difference(own, others, price(own), price(others)))
         return tuple(found)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the object that `statehtn compare-attitudes --json` prints."""
         pairs = [(agent, other) for agent in range(len(self.results)) for other in range(len(self.results))]
-        prices = self.risk_costs
+        values, prices = self.values, self.risk_costs
         return {
             "agents": [
                 {"attitude": result.attitude, "alpha": result.alpha, "objective": str(result.objective)}
                 for result in self.results
             ],
             "results": [result.to_dict() for result in self.results],
-            "values": [list(row) for row in self.values],
+            "values": [list(row) for row in values],
             "risk_costs": [list(row) for row in prices],
             "differences": [
                 {
                     "agent": agent,
                     "other": other,
+                    "value": values[agent][agent],
+                    "other_value": values[other][agent],
                     "risk_cost": prices[agent][agent],
                     "other_risk_cost": prices[other][agent],
                     "parts": [part.to_dict() for part in parts],
@@ -173,11 +178,13 @@ class AttitudeComparison:
 
         return comparison_html(self)
 
-    def _price(self, steps: Sequence[PricedStep], agent: Result) -> float | None:
-        objective = agent.objective
-        if not isinstance(objective, AdditiveObjective):
-            return None
-        return plan_risk_cost((priced.law for priced in steps), objective)
+
+def _price_of(objective: Objective, laws: Iterable[CostLaw]) -> Callable[[Iterable[PricedStep]], float | None]:
+    """Return what prices parts of plans with these laws by an objective: None for each where prices do not add up."""
+    if isinstance(objective, AdditiveObjective) and adds_up(objective, laws):
+        additive = objective
+        return lambda steps: plan_risk_cost((priced.law for priced in steps), additive)
+    return lambda _: None
 
 
 def compared_objectives(

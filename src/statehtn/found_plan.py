@@ -224,7 +224,7 @@ def value_of(plan: Plan, objective: Objective) -> float:
         InputError: it is worth nothing finite, or that cannot be computed.
     """
     assert plan.costs is not None
-    if isinstance(objective, AdditiveObjective):
+    if isinstance(objective, AdditiveObjective) and adds_up(objective, plan.costs):
         return plan_risk_cost(plan.costs, objective)
     return objective.value(sum_of(plan.costs))
 

@@ -126,6 +126,9 @@ def _largest(
         return (), statistics
     largest: list[float | None] = []
     for keep in settings.keep:
+        if None in largest:  # a limit was reached, or Ctrl-C was pressed
+            largest.append(None)
+            continue
         on_time = Settings.of(Deadline(keep.budget), heuristic=settings.heuristic, precision=settings.precision)
         best = solve(session, on_time, limits)
         statistics = statistics.and_search(best.statistics)

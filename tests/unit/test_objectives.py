@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import pickle
 from pathlib import Path
 
 import pytest
@@ -12,8 +13,11 @@ import statehtn
 from statehtn import UsageError
 from statehtn.cli import main
 from statehtn.display.result import readable_result
+from statehtn.experiments.run import Grid, Instance
 from statehtn.risk import MeanVariance
 from tests.test_minimal import DOMAIN, PROBLEM
+from tests.unit.test_correlated_costs import DOMAIN as SNOW_DOMAIN
+from tests.unit.test_correlated_costs import PROBLEM as SNOW_PROBLEM
 from tests.unit.test_planner import UNSOLVABLE
 
 AV = ("domains/av/domain.hddl", "domains/av/p1.hddl")
@@ -281,3 +285,26 @@ def test_notebooks_show_every_objective(vehicle: statehtn.Problem) -> None:
     top = statehtn.top_plans(vehicle, 2, objective="deadline 17")
     assert "value" in top._repr_html_()
     assert "by deadline 17" in statehtn.compare_attitudes(vehicle, objectives=["deadline 17", "neutral"])._repr_html_()
+
+
+def test_agents_are_compared_where_costs_hang_together() -> None:
+    problem = statehtn.read_hddl_text(SNOW_DOMAIN, SNOW_PROBLEM)
+    comparison = statehtn.compare_attitudes(problem, objectives=["neutral", "averse 1", "cvar 0.75"])
+    for row, own in zip(comparison.values, comparison.results, strict=True):
+        assert own.plan is not None
+        law = own.plan.cost_distribution()
+        assert row == pytest.approx([agent.objective.value(law) for agent in comparison.results])
+    (careful,) = comparison.differences(1, 0)  # of a careful agent no part of a plan has a price
+    assert (careful.own_cost, careful.other_cost) == (None, None)
+    (indifferent,) = comparison.differences(0, 1)
+    assert indifferent.own_cost is not None
+    assert "averse 1 instead of neutral" in str(comparison)
+
+
+def test_runs_with_objectives_travel() -> None:
+    wanted = [*map(statehtn.objective, ("cvar 0.95", "piecewise 0:0 10:-1", "one-switch alpha=1 tradeoff=2 wealth=3"))]
+    grid = Grid(objectives=wanted, keep=(statehtn.Keep(25, 0.95),), precision=1e-4)
+    runs = grid.runs([Instance("d", "p", "d.hddl", "p.hddl")])
+    assert pickle.loads(pickle.dumps(runs)) == runs
+    assert [run.key[2:4] for run in runs] == [(str(one), "25 0.95") for one in wanted]
+    assert all("--keep" in run.arguments() and "0.0001" in run.arguments() for run in runs)
