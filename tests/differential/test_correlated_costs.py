@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import fields
 
 import pytest
@@ -13,9 +13,12 @@ from statehtn import Problem, Status, validate
 from statehtn.core.grounding import ground
 from statehtn.core.label_run import PRECISION
 from statehtn.core.label_search import search_labels
+from statehtn.core.labels import Support
 from statehtn.core.plan_based import search_networks_by_labels
+from statehtn.core.scenario_labels import ScenarioLabels
 from statehtn.core.search_run import SearchOutcome
 from statehtn.core.switches import LabelSwitches, LawSwitches, ScenarioSwitches
+from statehtn.limits import Limits
 from statehtn.model.cost.scenario_cost import total_of
 from statehtn.risk.keep import Keep
 from statehtn.risk.objective import Objective
@@ -77,6 +80,30 @@ def test_the_best_plan(family: str, orders: tuple[str, ...], data: st.DataObject
     problem, text = data.draw(correlated(orders)), data.draw(LAWS[family])
     wanted = objective(text)
     check(problem, search(problem, wanted), wanted, best_plan(problem, exact_objective(text)))
+
+
+@given(
+    problem=correlated(),
+    text=TEXTS,
+    keep=st.one_of(st.just(()), budgets()),
+    without=st.lists(st.sampled_from(SWITCHES), max_size=2),
+)
+def test_the_label_search_finds_the_best_plan_by_itself(
+    problem: Problem, text: str, keep: tuple[Budget, ...], without: list[str]
+) -> None:
+    """The searches with one price before it, which mostly find the best plan, leave it their tangents alone."""
+    support = ScenarioLabels.support
+
+    def tangents_alone(labels: ScenarioLabels, limits: Limits, share: float = 0.25) -> Iterator[Support]:
+        for _ in support(labels, limits, share):
+            pass
+        yield Support()
+
+    wanted = objective(text)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ScenarioLabels, "support", tangents_alone)
+        outcome = search(problem, wanted, keep, without)
+    check(problem, outcome, wanted, best_plan(problem, exact_objective(text), keep))
 
 
 @pytest.mark.parametrize("family", EXPONENTIAL)
