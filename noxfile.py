@@ -129,6 +129,14 @@ def precision(session: nox.Session) -> None:
     session.run("pytest", *thorough, "tests/differential/test_optimal_is_optimal.py", *session.posargs)
 
 
+@nox.session
+def objectives(session: nox.Session) -> None:
+    """Compare some ten thousand answers for all objectives with all plans and their exact laws (an hour)."""
+    session.install(".", *nox.project.dependency_groups(PROJECT, "test"))
+    thorough = ("--hypothesis-profile", "objectives", "-rP")
+    session.run("pytest", *thorough, "tests/differential/test_objectives.py", *session.posargs)
+
+
 @nox.session(venv_backend="virtualenv")
 def mutation(session: nox.Session) -> None:
     """Break the conditions on which optimality hangs, one at a time, and see whether the tests notice (half an hour).

@@ -113,6 +113,18 @@ def all_outlooks(
     return list(found.values())
 
 
+def law_of(problem: Problem, steps: Sequence[Step]) -> Law:
+    """The law of what actions cost, one after the other from the initial state on."""
+    space = LawSpace(problem)
+    law, state = space.laws.zero, problem.initial_state
+    for step in steps:
+        law = space.laws.sum(law, space.cost(step, state))
+        after = space.space.semantics.execute(step.action, step.arguments, state)
+        assert after is not None, f"{step} cannot be executed"
+        state = after
+    return law
+
+
 def told_apart(steps: Actions, distinct: str) -> Actions:
     """What two plans have to have in common to count as one."""
     if distinct == "law":

@@ -28,6 +28,7 @@ SUPPRESSED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filt
 settings.register_profile("dev", max_examples=30, deadline=None, suppress_health_check=SUPPRESSED)
 settings.register_profile("ci", max_examples=100, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
+settings.register_profile("objectives", max_examples=200, deadline=None, suppress_health_check=SUPPRESSED)
 settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
 settings.load_profile("dev")
 

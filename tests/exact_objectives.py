@@ -1,6 +1,7 @@
 """What objectives mean, spelled out in exact arithmetic: the judge of the planner's own definitions.
 
-Rational values are exact, others have some 50 digits. Costs are minimised, so the least value is the best.
+Rational values are exact, others have some 50 digits (the entropic value at risk 20). Costs are minimised, so the
+least value is the best.
 """
 
 from __future__ import annotations
@@ -139,27 +140,27 @@ def entropic_value_at_risk(level: Fraction) -> Value:
     Its slope has the sign of `a K'(a) - K(a) - c`, K the logarithm; `a K' - K`, the divergence of the tilted law, rises
     from 0 to ln(1/P(C is largest)). Where that is at most c the infimum is the largest cost.
     """
-    with decimal.localcontext(CONTEXT):
-        radius = -decimal_of(1 - level).ln()
+    radius = -math.log(1 - level)
 
-    def divergence(law: Law, a: Decimal) -> Decimal:
-        top = decimal_of(law.most)
-        weights = [(decimal_of(p) * (a * (decimal_of(cost) - top)).exp(), decimal_of(cost)) for cost, p in law.outcomes]
+    def divergence(law: Law, a: float) -> float:
+        top = float(law.most)
+        weights = [(p * math.exp(a * (cost - top)), cost) for cost, p in law.in_floats]
         whole = sum(weight for weight, _ in weights)
         mean = sum(weight * cost for weight, cost in weights) / whole
-        return a * (mean - top) - whole.ln()
+        return a * (mean - top) - math.log(whole)
 
     def value(law: Law) -> Fraction:
         if law.outcomes[-1][1] >= 1 - level:
             return law.most
+        low, high = 0.0, 1.0
+        while divergence(law, high) < radius:
+            low, high = high, 2 * high
+        for _ in range(60):  # in floats: the value is flat there, so that its error is the square of theirs
+            middle = (low + high) / 2
+            low, high = (middle, high) if divergence(law, middle) < radius else (low, middle)
         with decimal.localcontext(CONTEXT):
-            low, high = Decimal(0), Decimal(1)
-            while divergence(law, high) < radius:
-                low, high = high, 2 * high
-            while high - low > Decimal("1e-12") * high:  # the value is flat there: its error is the square of this
-                middle = (low + high) / 2
-                low, high = (middle, high) if divergence(law, middle) < radius else (low, middle)
-            return Fraction((log_of_mean_exponential(law, high) + radius) / high)
+            a = decimal_of(Fraction(high))
+            return Fraction((log_of_mean_exponential(law, a) - decimal_of(1 - level).ln()) / a)
 
     return value
 

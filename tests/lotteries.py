@@ -62,18 +62,18 @@ FACTS = ("p0", "p1", "p2")
 @st.composite
 def lottery_problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     """A problem; `orders` are the kinds of task networks in it."""
-    lotteries = draw(st.lists(st.sampled_from(LOTTERIES), min_size=4, max_size=6, unique=True))
+    lotteries = draw(st.lists(st.sampled_from(LOTTERIES), min_size=5, max_size=7, unique=True))
     actions = {f"a{i}": draw(action(f"a{i}", branches)) for i, branches in enumerate(lotteries)}
-    tasks = {f"t{i}": Signature(f"t{i}", ()) for i in range(draw(st.integers(1, 3)))}
+    tasks = {f"t{i}": Signature(f"t{i}", ()) for i in range(draw(st.sampled_from((2, 2, 3, 1))))}
     methods = {}
     for task in tasks:
-        firsts = draw(st.lists(st.sampled_from(list(actions)), min_size=2, max_size=3, unique=True))
+        firsts = draw(st.permutations(list(actions)))[: draw(st.sampled_from((3, 3, 2, 4)))]
         for i, first in enumerate(firsts):
             name = f"{task}-m{i}"
             precondition = draw(literal()) if i > 0 and chance(draw, 0.1) else TRUE
             network = draw(subtasks(task, first, list(actions), list(tasks), orders, i > 0))
             methods[name] = Method(name, (), task, (), network, precondition)
-    chosen = [draw(st.sampled_from(list(tasks))) for _ in range(draw(st.integers(2, 3)))]
+    chosen = [*tasks, *draw(st.lists(st.sampled_from(list(tasks)), max_size=3 - len(tasks)))]
     initial = frozenset((fact,) for fact in FACTS if chance(draw, 0.5))
     predicates = {fact: Signature(fact, ()) for fact in FACTS}
     domain = Domain("lotteries", TypeHierarchy({}), {}, predicates, {}, tasks, actions, methods)
@@ -110,7 +110,7 @@ def subtasks(
     """An action, or two; or an action and a later task, or now and then the same task again, if it may recur."""
     chosen = [first]
     later = [other for other in tasks if other > task]
-    if recurs and chance(draw, 0.15):
+    if recurs and chance(draw, 0.06):
         chosen.append(task)
     elif later and chance(draw, 0.3):
         chosen.append(draw(st.sampled_from(later)))
@@ -181,4 +181,4 @@ FAMILIES: dict[str, st.SearchStrategy[str]] = {"additive": ADDITIVE, **FINITE, *
 def budgets() -> st.SearchStrategy[tuple[tuple[Fraction, Fraction], ...]]:
     """One or two budgets, each with a probability of keeping it."""
     budget = st.tuples(st.sampled_from(BUDGETS), st.sampled_from(("0.5", "0.8", "0.9", "0.95", "1", "0.25")))
-    return st.lists(budget.map(lambda pair: (Fraction(pair[0]), Fraction(pair[1]))), min_size=1, max_size=2).map(tuple)
+    return st.lists(budget.map(lambda pair: (Fraction(pair[0]), Fraction(pair[1]))), min_size=1, max_size=2, unique=True).map(tuple)

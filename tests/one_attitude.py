@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from tests.exact_laws import Law
 
 LARGEST = 400.0  # beyond it the extreme outcomes of laws of a step of some tenths decide, and then their probabilities
-NARROWEST = 1e-3
+MOST_INTERVALS = 300
+SOME_ALPHAS = (0.0, *(sign * 2.0**power for sign in (1, -1) for power in range(-7, 5)))
 ROUNDING = 1e-9
 
 
@@ -20,18 +21,23 @@ def is_best_for_none(law: Law, others: Sequence[Law]) -> bool:
     """
     if any(extremes(law, sign) <= min(extremes(other, sign) for other in others) for sign in (1, -1)):
         return False
+    rivals = {min(others, key=lambda other: equivalent(other, alpha)) for alpha in SOME_ALPHAS}
+    if law in rivals:
+        return False
     pending = [(-LARGEST, 0.0), (0.0, LARGEST)]
-    while pending:
+    for _ in range(MOST_INTERVALS):
+        if not pending:
+            return True
         low, high = pending.pop()
-        if equivalent(law, low) - ROUNDING <= min(equivalent(other, high) for other in others):
-            middle = (
-                (low + high) / 2 if abs(high - low) < 2 else math.copysign(math.sqrt(abs(low * high) + 1), low + high)
-            )
-            own = equivalent(law, middle)
-            if high - low < NARROWEST or own - ROUNDING <= min(equivalent(other, middle) for other in others):
-                return False
-            pending += [(low, middle), (middle, high)]
-    return True
+        if equivalent(law, low) - ROUNDING > min(equivalent(other, high) for other in rivals):
+            continue
+        middle = (low + high) / 2
+        if high - low > 2:  # alphas of all orders of magnitude are tried soon
+            middle = math.copysign(math.sqrt(low * high + 1), middle)
+        if equivalent(law, middle) - ROUNDING <= min(equivalent(other, middle) for other in rivals):
+            return False
+        pending += [(low, middle), (middle, high)]
+    return False
 
 
 def extremes(law: Law, sign: int) -> list[tuple[float, float]]:

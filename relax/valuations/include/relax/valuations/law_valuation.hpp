@@ -1,6 +1,7 @@
 #ifndef RELAX_VALUATIONS_LAW_VALUATION_HPP
 #define RELAX_VALUATIONS_LAW_VALUATION_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -39,8 +40,8 @@ public:
                  std::shared_ptr<const LawObjective> objective, const LawOptions& options);
 
     std::span<const PricedProblem* const> prices() const override { return prices_; }
-    // Means are for ties, too, where they bound nothing.
-    std::size_t asked() const override { return *mean_index_ + (needs_means() ? 1 : 0); }
+    // Means are for ties, too, where they bound nothing; a search asks at one price at least.
+    std::size_t asked() const override { return std::max<std::size_t>(*mean_index_ + (needs_means() ? 1 : 0), 1); }
     void begin(const TaskNetworks& networks, Limits& limits) override;
     ValueId start() override { return ValueId{std::uint32_t{LawTable::kFree}}; }
     ValueId extend(ValueId value, ActionId action, std::span<const CostPartId> due_parts) override;
