@@ -181,4 +181,6 @@ FAMILIES: dict[str, st.SearchStrategy[str]] = {"additive": ADDITIVE, **FINITE, *
 def budgets() -> st.SearchStrategy[tuple[tuple[Fraction, Fraction], ...]]:
     """One or two budgets, each with a probability of keeping it."""
     budget = st.tuples(st.sampled_from(BUDGETS), st.sampled_from(("0.5", "0.8", "0.9", "0.95", "1", "0.25")))
-    return st.lists(budget.map(lambda pair: (Fraction(pair[0]), Fraction(pair[1]))), min_size=1, max_size=2, unique=True).map(tuple)
+    return st.lists(
+        budget.map(lambda pair: (Fraction(pair[0]), Fraction(pair[1]))), min_size=1, max_size=2, unique=True
+    ).map(tuple)

@@ -27,7 +27,7 @@ from functools import lru_cache, partial
 from pathlib import Path
 
 import statehtn
-from statehtn import Problem, pipeline
+from statehtn import Problem, sweeps
 from statehtn.experiments.instances import find_instances
 from statehtn.experiments.run import Instance
 from statehtn.experiments.suites import SATELLITE_PROBLEMS
@@ -91,7 +91,7 @@ def measure(session: Session, problem: str, label: str, text: str, options: argp
     results = []
     for _ in range(options.repeat):
         limits = Limits.starting_now(options.time_limit, options.memory_limit)
-        results.append(pipeline.solve(again(session), Settings.of(text), limits))
+        results.append(sweeps.solve(again(session), Settings.of(text), limits))
         if results[-1].status == "time-limit":
             break  # the others would take as long
     seconds = statistics.median(result.statistics.search_seconds or 0.0 for result in results)
@@ -111,7 +111,7 @@ def again(session: Session) -> Session:
 def grounded(make: Callable[[], Problem], time_limit: float) -> tuple[Session, float | None]:
     """A ground problem, and the neutral agent's optimum; None where that is not found within the limit."""
     session = Session(make())
-    best = pipeline.solve(session, Settings.of(), Limits.starting_now(time_limit + 60, 8000.0))
+    best = sweeps.solve(session, Settings.of(), Limits.starting_now(time_limit + 60, 8000.0))
     in_time = (best.statistics.search_seconds or 0.0) <= time_limit
     return session, best.value if best.status == "optimal" and in_time else None
 
