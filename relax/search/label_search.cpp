@@ -109,14 +109,20 @@ std::optional<StopReason> LabelSearch::search(NetworkId from) {
         labels_.node(root).least[price] = options_.tdg_bound ? bounds_[price][labels_.node(root).network] : 0;
     }
     const ValueId start = valuation_.start();
-    const Worth bound = valuation_.bound(start, labels_.to_come(root), 0);
+    const bool is_plan = progression_.networks().is_empty(from);
+    const Worth bound = is_plan ? valuation_.worth(start) : valuation_.bound(start, labels_.to_come(root), 0);
     if (bound != kNoWorth) {
         note_proven(bound);
     }
     if (!is_wanted(bound)) {
         return std::nullopt;
     }
-    push(*labels_.add({root, start, ActionLists::kEmpty, LabelId{0}, nullptr, bound, 0, true, false}));
+    const LabelId first = *labels_.add({root, start, ActionLists::kEmpty, LabelId{0}, nullptr, bound, 0, true, false});
+    if (is_plan) {
+        add_plan(first);
+        return std::nullopt;
+    }
+    push(first);
     while (!open_.is_empty() && open_.top().priority < cutoff_) {
         if (const auto stop = limits_.check()) {
             return stop;

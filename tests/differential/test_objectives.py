@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import fields
+from fractions import Fraction
 
 import pytest
 from hypothesis import given
@@ -17,6 +18,7 @@ from statehtn.core.grounding import ground
 from statehtn.core.label_search import search_labels
 from statehtn.core.search import last_of
 from statehtn.core.switches import LabelSwitches
+from statehtn.model import Domain, Method, Signature, TypeHierarchy
 from statehtn.risk import Keep
 from statehtn.session import Session
 from statehtn.settings import Settings, TopSettings
@@ -24,7 +26,7 @@ from tests.all_laws import Budget, largest_probability, law_of
 from tests.differential.judge import check, check_top, note_attitudes
 from tests.differential.oracles import ADMISSIBLE, LIMITS, must_have_ended
 from tests.exact_objectives import ExactObjective, exact_objective, of_utility
-from tests.lotteries import FAMILIES, budgets, lottery_problems
+from tests.lotteries import FAMILIES, budgets, lottery_problems, network_of
 from tests.strategies import problems
 
 LABELLED = {name: texts for name, texts in FAMILIES.items() if name != "evar"}
@@ -143,3 +145,13 @@ def test_without_a_rule(
     exact = exact_objective(text)
     value = None if outcome.plan is None else float(exact.value(law_of(problem, outcome.plan.steps)))
     check(problem, exact, keep, outcome.status, outcome.plan, value, outcome.lower_bound, outcome.stopped)
+
+
+@pytest.mark.parametrize("solver", ["state", "plan"])
+@pytest.mark.parametrize("text", ["neutral", "deadline 5", "cvar 0.9", "one-switch alpha=1 tradeoff=1 wealth=3"])
+def test_the_plan_without_actions(solver: str, text: str) -> None:
+    nothing = Method("nothing", (), "t", (), network_of([], ()))
+    domain = Domain("d", TypeHierarchy({}), {}, {}, {}, {"t": Signature("t", ())}, {}, {"nothing": nothing})
+    problem = Problem("p", domain, {}, (), network_of(["t"], ()), frozenset(), {})
+    for keep in (NO_BUDGET, ((Fraction(1), Fraction(1)),)):
+        judge(problem, exact_objective(text), keep, solve(problem, text, keep, solver=solver), "no actions")
