@@ -29,6 +29,9 @@ from tests.differential.oracles import LIMITS, must_have_ended
 from tests.exact_objectives import SLACK, exact_objective
 from tests.lotteries import ALPHAS, FINITE, LAWS, budgets, texts
 from tests.scenarios import correlated_lotteries, correlated_problems
+from tests.shares import share_of_examples
+
+SHARE = share_of_examples(5)
 
 SWITCHES = [field.name for kind in (ScenarioSwitches, LawSwitches) for field in fields(kind)]
 FINITE_SWITCHES = ("one_price_first", "bound_mixes", "compare_boxes", "compare_envelopes", "use_cutoff")
@@ -75,6 +78,7 @@ def check(problem: Problem, outcome: SearchOutcome, wanted: Objective, expected:
 
 @pytest.mark.parametrize("family", LAWS)
 @pytest.mark.parametrize("orders", ORDERS)
+@SHARE
 @given(data=st.data())
 def test_the_best_plan(family: str, orders: tuple[str, ...], data: st.DataObject) -> None:
     problem, text = data.draw(correlated(orders)), data.draw(LAWS[family])
@@ -82,6 +86,7 @@ def test_the_best_plan(family: str, orders: tuple[str, ...], data: st.DataObject
     check(problem, search(problem, wanted), wanted, best_plan(problem, exact_objective(text)))
 
 
+@SHARE
 @given(
     problem=correlated(),
     text=TEXTS,
@@ -107,6 +112,7 @@ def test_the_label_search_finds_the_best_plan_by_itself(
 
 
 @pytest.mark.parametrize("family", EXPONENTIAL)
+@SHARE
 @given(data=st.data(), without=st.one_of(st.just([]), st.lists(st.sampled_from(FINITE_SWITCHES))))
 def test_the_best_plan_by_exponentials(family: str, data: st.DataObject, without: list[str]) -> None:
     problem, text = data.draw(correlated()), data.draw(EXPONENTIAL[family])
@@ -116,6 +122,7 @@ def test_the_best_plan_by_exponentials(family: str, data: st.DataObject, without
     check(problem, search(problem, wanted, (), without), wanted, best_plan(problem, exact_objective(text)))
 
 
+@SHARE
 @given(problem=correlated(), text=st.one_of(TEXTS, *EXPONENTIAL.values()))
 def test_the_plan_based_solver_agrees(problem: Problem, text: str) -> None:
     if text.startswith("exponentials") and "linear" not in text:
@@ -126,6 +133,7 @@ def test_the_plan_based_solver_agrees(problem: Problem, text: str) -> None:
     check(problem, outcome, wanted, best_plan(problem, exact_objective(text)))
 
 
+@SHARE
 @given(problem=correlated(), text=st.one_of(TEXTS, st.just("neutral")), keep=budgets())
 def test_budgets_are_kept(problem: Problem, text: str, keep: tuple[Budget, ...]) -> None:
     wanted = objective(text)
@@ -136,6 +144,7 @@ def test_budgets_are_kept(problem: Problem, text: str, keep: tuple[Budget, ...])
         assert all(law.cdf(float(budget)) >= float(probability - SLACK) for budget, probability in keep)
 
 
+@SHARE
 @given(
     problem=correlated(),
     text=TEXTS,

@@ -18,7 +18,10 @@ from tests.all_laws import best_plans
 from tests.differential.oracles import ADMISSIBLE, LIMITS, must_have_ended
 from tests.exact_objectives import exact_objective
 from tests.lotteries import FINITE, lottery_problems
+from tests.shares import share_of_examples
 from tests.strategies import problems
+
+SHARE = share_of_examples(5)
 
 ALL = st.one_of(*FINITE.values())
 NO_SHORT_CUT = {"one_price_first": False}
@@ -50,30 +53,35 @@ def check(problem: Problem, text: str, **options: object) -> None:
 
 
 @pytest.mark.parametrize("family", FINITE)
+@SHARE
 @given(data=st.data())
 def test_the_best_plan(family: str, data: st.DataObject) -> None:
     check(data.draw(lottery_problems()), data.draw(FINITE[family]))
 
 
 @pytest.mark.parametrize("family", FINITE)
+@SHARE
 @given(data=st.data())
 def test_the_best_plan_of_any_problem(family: str, data: st.DataObject) -> None:
     check(data.draw(problems()), data.draw(FINITE[family]))
 
 
 @pytest.mark.parametrize("left_out", [None, *SWITCHES, "inherit_h", "tdg_bound", "limits_labels", "forget_facts"])
+@SHARE
 @given(problem=lottery_problems(), text=ALL, heuristic=st.sampled_from(ADMISSIBLE))
 def test_label_search_alone(left_out: str | None, problem: Problem, text: str, heuristic: str) -> None:
     switches = LabelSwitches(**NO_SHORT_CUT, **({} if left_out is None else {left_out: False}))
     check(problem, text, switches=switches, heuristic=heuristic)
 
 
+@SHARE
 @given(problem=lottery_problems(), text=ALL, left_out=st.sampled_from(SWITCHES))
 def test_label_search_with_incumbents(problem: Problem, text: str, left_out: str) -> None:
     check(problem, text, switches=LabelSwitches(**{left_out: False}))
 
 
 @pytest.mark.parametrize("distinct", ["multiset", "sequence"])
+@SHARE
 @given(problem=lottery_problems(), text=ALL, k=st.integers(2, 6))
 def test_several_plans(distinct: str, problem: Problem, text: str, k: int) -> None:
     outcome = last_of(search_labels(ground(problem), objective(text), k=k, distinct=distinct, limits=LIMITS))
@@ -83,6 +91,7 @@ def test_several_plans(distinct: str, problem: Problem, text: str, k: int) -> No
     assert values == pytest.approx(expected, rel=2 * PRECISION, abs=2 * PRECISION)
 
 
+@SHARE
 @given(problem=lottery_problems(), alpha=st.sampled_from(["0.1", "0.5", "2"]))
 def test_an_agent_of_one_switch_is_neutral_when_it_is_rich_and_exponential_when_it_is_poor(
     problem: Problem, alpha: str

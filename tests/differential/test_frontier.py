@@ -21,6 +21,9 @@ from tests.differential.oracles import LIMITS, must_have_ended
 from tests.exact_laws import Law
 from tests.exact_objectives import exact_objective, variance
 from tests.lotteries import lottery_problems
+from tests.shares import share_of_examples
+
+SHARE = share_of_examples(5)
 
 RISKS = ("cvar 0.5", "cvar 0.9", "deadline 8", "deadline 11", "deviation")
 CLOSE = 1e-6  # what a search may be off by
@@ -71,6 +74,7 @@ def must_be_the_frontier(found: Frontier, expected: list[Pair]) -> None:
 
 
 @pytest.mark.parametrize("risk", RISKS)
+@SHARE
 @given(problem=lottery_problems())
 def test_frontier(risk: str, problem: Problem) -> None:
     assume(has_finitely_many_plans(problem))
@@ -83,6 +87,7 @@ def test_frontier(risk: str, problem: Problem) -> None:
     must_be_the_frontier(found, expected)
 
 
+@SHARE
 @given(problem=lottery_problems(), risk=st.sampled_from(RISKS), steps=st.integers(1, 60))
 def test_frontier_within_a_limit(problem: Problem, risk: str, steps: int) -> None:
     """What is there are plans of the problem, none better than another; it is complete only if nothing stopped it."""

@@ -15,7 +15,10 @@ from statehtn.risk import Neutral
 from tests.brute_force import LARGEST_NETWORK, all_plans
 from tests.differential.oracles import LIMITS, close_to, must_have_ended, solve
 from tests.scenarios import correlated_problems, mixture, totals
+from tests.shares import share_of_examples
 from tests.strategies import grounding_switches
+
+SHARE = share_of_examples(3)
 
 
 def must_equal(law: CostLaw, expected: CostDistribution) -> None:
@@ -34,6 +37,7 @@ def must_cost_in_each_scenario(problem: Problem, plan: Plan) -> None:
         must_equal(plan.cost_distribution_given(scenario), law)
 
 
+@SHARE
 @given(problem=correlated_problems())
 def test_plans_cost_what_they_cost_in_each_scenario(problem: Problem) -> None:
     for plan in all_plans(problem, most=1500, largest_network=LARGEST_NETWORK)[:20]:
@@ -42,6 +46,7 @@ def test_plans_cost_what_they_cost_in_each_scenario(problem: Problem) -> None:
         must_cost_in_each_scenario(problem, plan.with_costs(validation.costs))
 
 
+@SHARE
 @given(problem=correlated_problems(), switches=grounding_switches())
 def test_ground_costs_are_those_of_each_scenario(problem: Problem, switches: GroundingSwitches) -> None:
     outcome = find_top_plans(price(ground(problem, switches=switches), Neutral()), 3, limits=LIMITS)
@@ -52,6 +57,7 @@ def test_ground_costs_are_those_of_each_scenario(problem: Problem, switches: Gro
 
 @pytest.mark.parametrize("solver", ["state", "plan"])
 @pytest.mark.parametrize("orders", [("total",), ("none", "partial")])
+@SHARE
 @given(data=st.data())
 def test_the_plan_of_least_mean_cost(solver: str, orders: tuple[str, ...], data: st.DataObject) -> None:
     problem = data.draw(correlated_problems(orders))

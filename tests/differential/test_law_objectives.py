@@ -30,7 +30,10 @@ from tests.differential.oracles import LIMITS, must_have_ended
 from tests.exact_objectives import SLACK, exact_objective, of_utility
 from tests.lotteries import LAWS as OF_LAWS_ALONE
 from tests.lotteries import SWEPT, budgets, lottery_problems
+from tests.shares import share_of_examples
 from tests.strategies import problems
+
+SHARE = share_of_examples(5)
 
 LAWS = {**OF_LAWS_ALONE, **SWEPT}
 SWITCHES = [field.name for kind in (LawSwitches, TopSwitches) for field in fields(kind)]
@@ -67,6 +70,7 @@ def check(problem: Problem, outcome: SearchOutcome, wanted: Objective, expected:
 
 @pytest.mark.parametrize("family", LAWS)
 @pytest.mark.parametrize("orders", ORDERS)
+@SHARE
 @given(data=st.data())
 def test_the_best_plan(family: str, orders: tuple[str, ...], data: st.DataObject) -> None:
     problem = data.draw(st.one_of(lottery_problems(orders), problems(orders)))
@@ -75,6 +79,7 @@ def test_the_best_plan(family: str, orders: tuple[str, ...], data: st.DataObject
     check(problem, search(problem, wanted), wanted, best_plans(problem, exact_objective(text)))
 
 
+@SHARE
 @given(problem=PROBLEMS, text=st.one_of(*LAWS.values(), st.just("neutral")), keep=budgets())
 def test_budgets_are_kept(problem: Problem, text: str, keep: tuple[Budget, ...]) -> None:
     wanted = objective(text)
@@ -85,6 +90,7 @@ def test_budgets_are_kept(problem: Problem, text: str, keep: tuple[Budget, ...])
         assert all(law.cdf(float(budget)) >= float(probability - SLACK) for budget, probability in keep)
 
 
+@SHARE
 @given(
     problem=PROBLEMS,
     text=st.one_of(*LAWS.values()),
@@ -97,6 +103,7 @@ def test_refinements_keep_the_best_plan(problem: Problem, text: str, keep: tuple
     check(problem, outcome, wanted, best_plans(problem, exact_objective(text), keep=keep))
 
 
+@SHARE
 @given(problem=PROBLEMS, falls=st.lists(st.integers(0, 4), min_size=1, max_size=30))
 def test_utilities_that_are_functions(problem: Problem, falls: list[int]) -> None:
     """The utility falls by so much from each whole cost to the next, in steps, and stays."""
@@ -108,6 +115,7 @@ def test_utilities_that_are_functions(problem: Problem, falls: list[int]) -> Non
     check(problem, search(problem, wanted), wanted, best_plans(problem, of_utility(exact)))
 
 
+@SHARE
 @given(problem=PROBLEMS, text=st.one_of(*LAWS.values()), keep=st.one_of(st.just(()), budgets()))
 def test_coarse_laws_become_exact(problem: Problem, text: str, keep: tuple[Budget, ...]) -> None:
     wanted = objective(text)
@@ -120,6 +128,7 @@ def test_coarse_laws_become_exact(problem: Problem, text: str, keep: tuple[Budge
     check(problem, outcome, wanted, best_plans(problem, exact_objective(text), keep=keep))
 
 
+@SHARE
 @given(problem=PROBLEMS, data=st.data())
 def test_no_plan_is_below_the_graph_of_laws(problem: Problem, data: st.DataObject) -> None:
     """The law of the initial task bounds every plan's probability to keep a budget, and so do rounded-down ones."""

@@ -27,7 +27,10 @@ from tests.differential.judge import check, check_top, note_attitudes
 from tests.differential.oracles import ADMISSIBLE, LIMITS, must_have_ended
 from tests.exact_objectives import ExactObjective, exact_objective, of_utility
 from tests.lotteries import FAMILIES, budgets, lottery_problems, network_of
+from tests.shares import share_of_examples
 from tests.strategies import problems
+
+SHARE = share_of_examples(8)
 
 LABELLED = {name: texts for name, texts in FAMILIES.items() if name != "evar"}
 """Those that label searches are for, which know budgets and find several plans."""
@@ -67,6 +70,7 @@ def judge(problem: Problem, exact: ExactObjective, keep: Sequence[Budget], resul
 
 
 @pytest.mark.parametrize("family", FAMILIES)
+@SHARE
 @given(problem=some_problems(), data=st.data(), options=st.sampled_from(OPTIONS))
 def test_the_best_plan(family: str, problem: Problem, data: st.DataObject, options: dict[str, str]) -> None:
     text = data.draw(FAMILIES[family])
@@ -75,6 +79,7 @@ def test_the_best_plan(family: str, problem: Problem, data: st.DataObject, optio
 
 
 @pytest.mark.parametrize("family", LABELLED)
+@SHARE
 @given(problem=some_problems(), data=st.data(), keep=budgets(), options=st.sampled_from(OPTIONS))
 def test_the_best_plan_that_keeps_budgets(
     family: str, problem: Problem, data: st.DataObject, keep: Sequence[Budget], options: dict[str, str]
@@ -98,6 +103,7 @@ UTILITIES = {
 
 
 @pytest.mark.parametrize("name", UTILITIES)
+@SHARE
 @given(problem=some_problems(), keep=maybe_budgets(), options=st.sampled_from(OPTIONS))
 def test_utilities_as_functions(name: str, problem: Problem, keep: Sequence[Budget], options: dict[str, str]) -> None:
     result = solve(problem, UTILITIES[name], keep, **options)
@@ -105,6 +111,7 @@ def test_utilities_as_functions(name: str, problem: Problem, keep: Sequence[Budg
 
 
 @pytest.mark.parametrize("family", LABELLED)
+@SHARE
 @given(
     problem=some_problems(),
     data=st.data(),
@@ -126,6 +133,7 @@ RULES = [field.name for field in fields(LabelSwitches)]
 
 
 @pytest.mark.parametrize("switch", RULES)
+@SHARE
 @given(problem=some_problems(), data=st.data(), keep=maybe_budgets(), heuristic=st.sampled_from(ADMISSIBLE))
 def test_without_a_rule(
     switch: str, problem: Problem, data: st.DataObject, keep: Sequence[Budget], heuristic: str

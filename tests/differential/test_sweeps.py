@@ -19,7 +19,10 @@ from tests.all_laws import best_plans
 from tests.differential.oracles import LIMITS, must_have_ended
 from tests.exact_objectives import ExactObjective, exact_objective
 from tests.lotteries import lottery_problems
+from tests.shares import share_of_examples
 from tests.strategies import problems
+
+SHARE = share_of_examples(5)
 
 LEVELS = ("0.05", "0.3", "0.5", "0.8", "0.95", "0.999")
 SLOPES = ("-3", "-0.5", "-0.1", "-0.01", "0", "0.01", "0.1", "0.3", "0.5", "0.9", "2", "5")
@@ -43,6 +46,7 @@ def mapped(problem: Problem, low: float, high: float, limits: Limits, eps: float
 
 
 @pytest.mark.parametrize("solver", ["state", "plan"])
+@SHARE
 @given(problem=st.one_of(lottery_problems(), problems()), level=st.sampled_from(LEVELS))
 def test_evar(solver: str, problem: Problem, level: str) -> None:
     result = evar(problem, level, LIMITS, solver=solver)
@@ -59,6 +63,7 @@ def test_evar(solver: str, problem: Problem, level: str) -> None:
         assert result.gap <= PRECISION * max(1, value)
 
 
+@SHARE
 @given(problem=lottery_problems(), level=st.sampled_from(LEVELS), steps=st.integers(1, 40))
 def test_evar_within_a_limit(problem: Problem, level: str, steps: int) -> None:
     """Whenever it ends, the bound holds, and the plan is worth what is said."""
@@ -74,6 +79,7 @@ def test_evar_within_a_limit(problem: Problem, level: str, steps: int) -> None:
         assert result.status in (Status.UNSOLVABLE, Status.TIME_LIMIT)
 
 
+@SHARE
 @given(
     problem=st.one_of(lottery_problems(), problems()),
     ends=st.sampled_from(((-3.0, 5.0), (-math.inf, math.inf), (0.01, 2.0), (-3.0, -0.01), (-1.0, 0.0), (0.0, 1.0))),
@@ -97,6 +103,7 @@ def test_map(problem: Problem, ends: tuple[float, float], part: float | None, sl
     must_be_within_the_gap(problem, found, slopes)
 
 
+@SHARE
 @given(
     problem=lottery_problems(),
     steps=st.integers(1, 60),
@@ -129,6 +136,7 @@ def must_be_within_the_gap(problem: Problem, found: AttitudeMap, slopes: list[st
             assert best * (1 - SLACK) <= worth <= best * (1 + SLACK) + piece.gap + SLACK
 
 
+@SHARE
 @given(
     st.lists(st.tuples(st.integers(1, 1000), st.sampled_from((0, 1, 1.5, 2, 10, 1000))), min_size=1, max_size=4),
     st.floats(0, 30),

@@ -14,6 +14,9 @@ from hypothesis import strategies as st
 
 import statehtn._relax as _relax
 from tests.exact_disutility import ACTIONS, CONTEXT, ExactDisutility, few_actions, in_cost, mix_of, priced
+from tests.shares import share_of_examples
+
+SHARE = share_of_examples(3)
 
 GROUNDING = few_actions()
 PRECISION = Decimal("1e-12")
@@ -66,6 +69,7 @@ def units(draw: st.DrawFn, size: int) -> list[int]:
     return draw(st.lists(sums, min_size=size, max_size=size))
 
 
+@SHARE
 @given(data=st.data(), disutility=disutilities())
 def test_a_worth_is_the_certainty_equivalent_rounded_down(data: st.DataObject, disutility: ExactDisutility) -> None:
     row = data.draw(st.lists(sums, min_size=disutility.size, max_size=disutility.size))
@@ -109,6 +113,7 @@ def test_small_slopes_lose_nothing(slope: float) -> None:
     assert _relax.value_of(ways.core.worth(ways.labels[0])) == pytest.approx(2 + slope * 5 / 4, rel=1e-12)
 
 
+@SHARE
 @given(data=st.data(), disutility=disutilities(is_convex=True), sizes=st.lists(SIZES, min_size=4, max_size=4))
 def test_bounds_hold_of_every_completion(data: st.DataObject, disutility: ExactDisutility, sizes: list[float]) -> None:
     rows = data.draw(st.lists(sums, min_size=disutility.size, max_size=disutility.size))
@@ -125,6 +130,7 @@ def test_bounds_hold_of_every_completion(data: st.DataObject, disutility: ExactD
     assert disutility.of(Decimal(_relax.value_of(bound))) <= disutility.at(in_cost(total, exponents))
 
 
+@SHARE
 @given(
     slope=st.floats(0.01, 1),
     log_weight=st.floats(-20, 3),
@@ -161,6 +167,7 @@ def min_on_line(function: Callable[[Decimal], Decimal], steps: int = 100) -> Dec
     return function(low)
 
 
+@SHARE
 @given(
     data=st.data(),
     disutility=st.one_of(disutilities(is_convex=True), disutilities()),
@@ -195,6 +202,7 @@ def test_ways_that_are_as_good_are_with_every_completion(
 
 
 @example(lines=[(9, 1), (1, 9), (6, 6)], slope=0.5)
+@SHARE
 @given(
     lines=st.lists(st.tuples(st.integers(0, 30), st.integers(0, 30)), min_size=2, max_size=5), slope=st.floats(0.05, 2)
 )

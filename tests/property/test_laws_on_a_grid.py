@@ -14,6 +14,9 @@ import statehtn._relax as _relax
 from tests.exact_laws import Laws
 from tests.exact_objectives import exact_objective
 from tests.grid_laws import Law, above, add, cvar, excess, laws, mean, quantile, shifted, summed
+from tests.shares import share_of_examples
+
+SHARE = share_of_examples(3)
 
 ROUNDING = 1e-9
 Value = Callable[[Law], Fraction]
@@ -70,6 +73,7 @@ def table_for(objective: _relax.LawObjective) -> _relax.LawTable:
     return _relax.LawTable(objective.last, objective.is_flat_beyond)
 
 
+@SHARE
 @given(parts=st.lists(laws(), min_size=1, max_size=5))
 def test_a_sum_is_the_convolution(parts: list[Law]) -> None:
     table, total = _relax.LawTable(), 0
@@ -81,6 +85,7 @@ def test_a_sum_is_the_convolution(parts: list[Law]) -> None:
     assert probabilities == pytest.approx([float(exact[cost]) for cost in sorted(exact)], rel=1e-14)
 
 
+@SHARE
 @given(parts=st.lists(laws(), min_size=1, max_size=4), last=st.integers(0, 40), is_flat=st.booleans())
 def test_what_lies_beyond_a_bound_keeps_its_mean(parts: list[Law], last: int, is_flat: bool) -> None:
     table, total = _relax.LawTable(float(last), is_flat), 0
@@ -96,6 +101,7 @@ def test_what_lies_beyond_a_bound_keeps_its_mean(parts: list[Law], last: int, is
         assert at[-1] == pytest.approx(float(expected))
 
 
+@SHARE
 @given(parts=st.lists(laws(most=60), min_size=2, max_size=4), most=st.integers(1, 10))
 def test_smaller_laws_are_rounded_down(parts: list[Law], most: int) -> None:
     table, total = _relax.LawTable(most_outcomes=most), 0
@@ -109,6 +115,7 @@ def test_smaller_laws_are_rounded_down(parts: list[Law], most: int) -> None:
         assert less <= above(exact, cost) + ROUNDING
 
 
+@SHARE
 @given(parts=st.lists(laws(most=60), min_size=2, max_size=4), most=st.integers(1, 10))
 def test_smaller_laws_that_keep_their_means_are_less_risky(parts: list[Law], most: int) -> None:
     table, total = _relax.LawTable(most_outcomes=most, keeps_means=True), 0
@@ -123,6 +130,7 @@ def test_smaller_laws_that_keep_their_means_are_less_risky(parts: list[Law], mos
         assert less <= excess(exact, Fraction(cost)) + ROUNDING
 
 
+@SHARE
 @given(objective=objectives(), parts=st.lists(laws(), min_size=1, max_size=4))
 def test_values(objective: tuple[_relax.LawObjective, Value], parts: list[Law]) -> None:
     core, value = objective
@@ -132,6 +140,7 @@ def test_values(objective: tuple[_relax.LawObjective, Value], parts: list[Law]) 
     assert core.value(table, total) == pytest.approx(float(value(summed(*parts))), rel=1e-12, abs=1e-12)
 
 
+@SHARE
 @given(objective=objectives(), law=laws(), to_come=st.lists(laws(), min_size=1, max_size=3), floor=st.integers(0, 8))
 def test_bounds_of_sums(objective: tuple[_relax.LawObjective, Value], law: Law, to_come: list[Law], floor: int) -> None:
     core, value = objective
@@ -150,6 +159,7 @@ def test_bounds_of_sums(objective: tuple[_relax.LawObjective, Value], law: Law, 
     assert certain == pytest.approx(float(value(shifted(law, floor))), rel=ROUNDING, abs=ROUNDING)
 
 
+@SHARE
 @given(objective=objectives(), laws_=st.tuples(laws(), laws()), least=st.integers(0, 6), data=st.data())
 def test_a_law_that_is_as_good_never_loses(
     objective: tuple[_relax.LawObjective, Value], laws_: tuple[Law, Law], least: int, data: st.DataObject

@@ -10,6 +10,9 @@ from hypothesis import strategies as st
 
 import statehtn._relax as _relax
 from tests.exact_disutility import ACTIONS, CONTEXT, few_actions, in_cost, mix_of, priced
+from tests.shares import share_of_examples
+
+SHARE = share_of_examples(3)
 
 GROUNDING = few_actions()
 PRECISION = Decimal("1e-13")
@@ -47,6 +50,7 @@ class Ways:
             return mean + Decimal(self.weight) * variance.sqrt()
 
 
+@SHARE
 @given(weight=weights, row=pairs, exponents=st.tuples(st.integers(0, 40), st.integers(0, 40)))
 def test_a_worth_is_the_value_rounded_down(weight: float, row: Pair, exponents: Pair) -> None:
     ways = Ways(weight, [row], exponents)
@@ -55,6 +59,7 @@ def test_a_worth_is_the_value_rounded_down(weight: float, row: Pair, exponents: 
     assert value * (1 - PRECISION) <= worth <= value
 
 
+@SHARE
 @given(
     weight=weights,
     row=pairs,
@@ -71,6 +76,7 @@ def test_bounds_hold_of_every_completion(weight: float, row: Pair, least: Pair, 
     assert Decimal(_relax.value_of(bound)) <= ways.value(row, completion)
 
 
+@SHARE
 @given(weight=weights, row=pairs, more=pairs, mix=st.lists(st.floats(1e-3, 1e3), min_size=2, max_size=2))
 def test_a_bound_at_a_mix_is_attained(weight: float, row: Pair, more: Pair, mix: list[float]) -> None:
     """The bound is the value of what costs as much at the mix, all of it in the mean or all of it in the variance."""
@@ -83,6 +89,7 @@ def test_a_bound_at_a_mix_is_attained(weight: float, row: Pair, more: Pair, mix:
         assert min(ends) * (1 - PRECISION) <= bound <= min(ends)
 
 
+@SHARE
 @given(
     data=st.data(),
     weight=st.floats(0.1, 10),

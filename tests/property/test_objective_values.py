@@ -15,6 +15,9 @@ from statehtn.risk import Keep
 from tests.exact_laws import Law, Laws
 from tests.exact_objectives import exact_objective
 from tests.lotteries import FAMILIES, budgets
+from tests.shares import share_of_examples
+
+SHARE = share_of_examples(3)
 
 Drawn = Mapping[Fraction, Fraction]
 
@@ -37,6 +40,7 @@ def both(drawn: list[Drawn]) -> tuple[Law, object]:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
+@SHARE
 @given(data=st.data(), drawn=st.lists(outcomes(), min_size=1, max_size=4))
 def test_values(family: str, data: st.DataObject, drawn: list[Drawn]) -> None:
     text = data.draw(FAMILIES[family])
@@ -45,6 +49,7 @@ def test_values(family: str, data: st.DataObject, drawn: list[Drawn]) -> None:
     assert objective(text).value(law) == pytest.approx(expected, rel=1e-11, abs=1e-12)
 
 
+@SHARE
 @given(drawn=st.lists(outcomes(), min_size=1, max_size=4), keep=budgets())
 def test_budgets(drawn: list[Drawn], keep: tuple[tuple[Fraction, Fraction], ...]) -> None:
     exact, law = both(drawn)
