@@ -14,18 +14,24 @@ from statehtn.model import (
     Atom,
     CostBlock,
     CostDistribution,
+    Domain,
+    Expression,
     Formula,
+    Method,
     Not,
     Number,
     Parameter,
     Plan,
     Problem,
+    Subtask,
+    TaskNetwork,
+    TypeHierarchy,
 )
 from statehtn.model import Signature as Predicate
 from statehtn.model.chance import Chance, Outcome
 from tests.lotteries import lottery_problems
 from tests.naive_semantics import Semantics
-from tests.strategies import ORDERS, Draw, branches, chance, ground, problems
+from tests.strategies import ORDERS, Draw, branches, chance, ground, ordering, problems
 
 HIDDEN = {"h0": Predicate("h0"), "h1": Predicate("h1", (Parameter("?x0", ("thing",)),)), "h2": Predicate("h2")}
 ONE = Number(Fraction(1))
@@ -74,6 +80,43 @@ def correlated_lotteries(
     predicates = {**problem.domain.predicates, **{name: Predicate(name) for (name,) in facts}}
     domain = replace(problem.domain, predicates=predicates, actions=actions)
     return replace(problem, domain=domain, chances=tuple(chances))
+
+
+@st.composite
+def hedging_problems(draw: Draw, orders: tuple[str, ...] = ORDERS, certain: bool = True) -> Problem:
+    """Tasks in which actions can be chosen that are good in different scenarios, so that ways to a node are not alike.
+
+    Args:
+        certain: whether nothing is uncertain once the scenario is known.
+    """
+    names = [f"h{number}" for number in range(draw(st.integers(2, 4)))]
+    weights = [draw(st.integers(1, 4)) for _ in names]
+    outcomes = zip(names, weights, strict=True)
+    drawn = Chance(tuple(Outcome(Fraction(weight, sum(weights)), frozenset({(name,)})) for name, weight in outcomes))
+    actions: dict[str, Action] = {}
+    methods: dict[str, Method] = {}
+    tasks = {f"t{i}": Predicate(f"t{i}") for i in range(draw(st.integers(2, 3)))}
+    for task in tasks:
+        for number in range(draw(st.integers(2, 3))):
+            name = f"{task}-a{number}"
+            costs = [CostBlock(draw(hedging_cost(certain)), Atom(hidden)) for hidden in names]
+            actions[name] = Action(name, costs=tuple(costs))
+            network = TaskNetwork((Subtask("s0", name),))
+            methods[f"{name}-m"] = Method(f"{name}-m", (), task, (), network)
+    network = TaskNetwork(
+        tuple(Subtask(f"s{i}", name) for i, name in enumerate(tasks)), draw(ordering(len(tasks), orders))
+    )
+    predicates = {name: Predicate(name) for name in names}
+    domain = Domain("hedges", TypeHierarchy({}), {}, predicates, {}, tasks, actions, methods)
+    return Problem("p", domain, network=network, chances=(drawn,))
+
+
+@st.composite
+def hedging_cost(draw: Draw, certain: bool) -> tuple[tuple[Expression, Expression], ...]:
+    first, second = (Number(Fraction(draw(st.integers(0, 9)))) for _ in range(2))
+    if certain or draw(st.booleans()):
+        return ((ONE, first),)
+    return ((Number(Fraction(1, 4)), first), (Number(Fraction(3, 4)), second))
 
 
 @st.composite

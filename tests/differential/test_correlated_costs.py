@@ -28,7 +28,7 @@ from tests.correlated_plans import Plan, best_plan
 from tests.differential.oracles import LIMITS, must_have_ended
 from tests.exact_objectives import SLACK, exact_objective
 from tests.lotteries import ALPHAS, FINITE, LAWS, budgets, texts
-from tests.scenarios import correlated_lotteries, correlated_problems
+from tests.scenarios import correlated_lotteries, correlated_problems, hedging_problems
 from tests.shares import share_of_examples
 
 SHARE = share_of_examples(5)
@@ -46,7 +46,11 @@ TEXTS = st.one_of(*LAWS.values())
 
 def correlated(orders: tuple[str, ...] = ("total", "partial", "none")) -> st.SearchStrategy[Problem]:
     return st.one_of(
-        correlated_lotteries(orders), correlated_lotteries(orders, certain=True), correlated_problems(orders)
+        hedging_problems(orders),
+        hedging_problems(orders, certain=False),
+        correlated_lotteries(orders),
+        correlated_lotteries(orders, certain=True),
+        correlated_problems(orders),
     )
 
 
