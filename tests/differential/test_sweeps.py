@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from statehtn import CostDistribution, Problem, Result, Status
@@ -136,6 +136,7 @@ def must_be_within_the_gap(problem: Problem, found: AttitudeMap, slopes: list[st
             assert best * (1 - SLACK) <= worth <= best * (1 + SLACK) + piece.gap + SLACK
 
 
+@example([(1, 0), (1, 0), (1, 1.5)], 0.0, 0.25, 2.0**-23, 0.25)  # where the slope is a difference of equal numbers
 @SHARE
 @given(
     st.lists(st.tuples(st.integers(1, 1000), st.sampled_from((0, 1, 1.5, 2, 10, 1000))), min_size=1, max_size=4),

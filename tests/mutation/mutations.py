@@ -173,7 +173,7 @@ MUTATIONS = [
     Mutation(
         "plan-based: the first network that can be executed is the best",
         "relax/search/plan_based.cpp",
-        "if (solution_ && solution_->cost <= open_.top().priority) {",
+        "if (solution_ && cutoff() <= open_.top().priority) {",
         "if (solution_) {",
         (PLAN_BASED,),
     ),

@@ -93,14 +93,15 @@ def _minorant_of_part(law: CostLaw, low: float, high: float, at: float) -> tuple
 
 
 def _tangent(law: CostDistribution, low: float, high: float, at: float) -> tuple[float, float]:
-    """Return the values of the tangent that touches at a point; rounded down."""
-    touching = certainty_equivalent(law, at)
+    """Return the values of the tangent that touches at a point; rounded down, at both ends by what its slope may be."""
+    touching, lost = certainty_equivalent(law, at), 0.0
     if at == 0:  # the chance of the largest cost is all that counts
         fall = -math.log(law.outcomes[-1][0] / math.fsum(probability for probability, _ in law.outcomes))
-    else:
-        fall = max(0.0, tilted_mean(law, at) - touching) / at
-    below, above = (at - low) * fall, (high - at) * fall
-    return touching + below - ROUNDING * (touching + below), touching - above - ROUNDING * (touching + above)
+    else:  # near 0 the two differ by little
+        tilted = tilted_mean(law, at)
+        fall, lost = max(0.0, tilted - touching) / at, ROUNDING * (tilted + touching) / at
+    below, above = (at - low) * (fall - lost), (high - at) * (fall + lost)
+    return touching + below - ROUNDING * (touching + abs(below)), touching - above - ROUNDING * (touching + above)
 
 
 def _secant(law: CostLaw, low: float, high: float) -> tuple[float, float]:

@@ -16,8 +16,8 @@ from statehtn.display.result import readable_result
 from statehtn.experiments.run import Grid, Instance
 from statehtn.risk import MeanVariance
 from tests.test_minimal import DOMAIN, PROBLEM
-from tests.unit.test_correlated_costs import DOMAIN as SNOW_DOMAIN
-from tests.unit.test_correlated_costs import PROBLEM as SNOW_PROBLEM
+from tests.unit.test_costs_by_scenario import DOMAIN as SNOW_DOMAIN
+from tests.unit.test_costs_by_scenario import PROBLEM as SNOW_PROBLEM
 from tests.unit.test_planner import UNSOLVABLE
 
 AV = ("domains/av/domain.hddl", "domains/av/p1.hddl")
