@@ -11,6 +11,7 @@
 
 #include "relax/search/label_search.hpp"
 #include "relax/search/search.hpp"
+#include "relax/valuations/price_sums.hpp"
 
 namespace {
 
@@ -170,7 +171,8 @@ bool solve_for_several(bool ordered, relax::Distinct distinct, const std::vector
     relax::Limits limits;
     relax::LabelStatistics statistics;
     relax::PriceSums sums(priced);
-    const relax::LabelSearchResult result = relax::label_search(problem, sums, {0, 1, 2}, options, limits, statistics);
+    const std::vector<std::optional<relax::ActionName>> names{0, 1, 2};
+    const relax::LabelSearchResult result = relax::label_search(problem, sums, names, options, limits, statistics);
     std::vector<relax::Cost> costs;
     for (const relax::SearchResult& plan : result.plans) {
         costs.push_back(plan.cost.value_or(0));

@@ -10,7 +10,7 @@ from typing import Any, overload
 
 from statehtn.counted import counted
 from statehtn.effort import Statistics
-from statehtn.errors import UsageError
+from statehtn.errors import UnsupportedError, UsageError
 from statehtn.expected import number
 from statehtn.found_plan import FoundPlan
 from statehtn.limits import Limits
@@ -188,6 +188,7 @@ def map_attitudes(
     Raises:
         UsageError: an argument is out of its range.
         InputError: a cost has no finite price for one of the agents.
+        UnsupportedError: costs hang together.
     """
     low, high = _slope(low, "the lower alpha"), _slope(high, "the upper alpha")
     if not low < high:
@@ -195,6 +196,11 @@ def map_attitudes(
     if eps is not None:
         eps = _positive(eps, "eps")
     runs = Runs(session, settings, limits, progress)
+    if runs.has_scenarios:
+        raise UnsupportedError(
+            "an attitude map needs prices that add up, and costs that depend on hidden facts hang together; "
+            "plan for one agent at a time"
+        )
     sweep = AlphaSweep(runs, low, high, eps, _positive(resolution, "the resolution"))
     sweep.sweep()
     pieces: list[MapPiece] = []
