@@ -13,8 +13,6 @@ namespace {
 constexpr std::uint64_t kWorkOfALabel = 200;
 constexpr std::uint64_t kWorkOfAModel = 100;  // for each action and method
 
-constexpr std::uint32_t kMostForcedSteps = 1000;  // recursion that is forced may have no end
-
 // By ActionId: actions that certainly cost nothing may be executed at once; between sequences, where order makes a
 // difference, those without a name.
 std::vector<bool> free_actions(const Valuation& valuation, std::span<const std::optional<ActionName>> names,
@@ -46,10 +44,8 @@ LabelSearch::LabelSearch(const AnalysedProblem& problem, Valuation& valuation,
       statistics_(statistics),
       progression_(progression),
       labels_(valuation, options.count, options.limits_labels),
+      edges_(valuation, options_, progression, labels_, limits),
       cutoff_(std::min(valuation.most(), options.upper_bound.value_or(kNoWorth))) {
-    for (const PricedProblem* const priced : valuation_.prices()) {
-        bounds_.emplace_back(progression_.networks(), priced->task_bounds(limits_));
-    }
     valuation_.set_cutoff(cutoff_);
 }
 
@@ -104,10 +100,7 @@ LabelSearchResult LabelSearch::run() {
 
 // Search until no open label leads to a plan that is wanted. Says why it was stopped before that.
 std::optional<StopReason> LabelSearch::search(NetworkId from) {
-    const NodeId root = labels_.find_node(progression_.initial_state(), from);
-    for (std::size_t price = 0; price < bounds_.size(); ++price) {
-        labels_.node(root).least[price] = options_.tdg_bound ? bounds_[price][labels_.node(root).network] : 0;
-    }
+    const NodeId root = edges_.node_at(progression_.initial_state(), from);
     const ValueId start = valuation_.start();
     const bool is_plan = progression_.networks().is_empty(from);
     const Worth bound = is_plan ? valuation_.worth(start) : valuation_.bound(start, labels_.to_come(root), 0);
@@ -180,7 +173,7 @@ void LabelSearch::ask(LabelSpace::Node& node) {
         return;
     }
     NodeView view = progression_.view(node.state, node.network);
-    view.tdg_bound = bounds_[price][node.network];
+    view.tdg_bound = edges_.bound(price, node.network);
     const std::uint64_t cuts_before = heuristic->rounds();
     const auto h = heuristic->evaluate(view);
     ++statistics_.evaluated;
@@ -203,57 +196,11 @@ void LabelSearch::expand(LabelId id) {
     ++statistics_.expanded;
     const NodeId node = labels_[id].node;
     if (!labels_.node(node).is_expanded) {
-        find_edges(node);
+        edges_.find(node);
     }
     for (const Edge& edge : labels_.node(node).edges) {
         inherit(node, edge);
         generate(id, edge);
-    }
-}
-
-// All labels of a node have the same successors.
-void LabelSearch::find_edges(NodeId node) {
-    progression_.expand(labels_.node(node).state, labels_.node(node).network, successors_);
-    edges_.clear();
-    for (const Successor& successor : successors_) {
-        steps_.clear();
-        executions_.clear();
-        if (const auto end = follow(successor)) {
-            const NodeId to = labels_.find_node(end->state, end->network);
-            for (std::size_t price = 0; options_.tdg_bound && price < bounds_.size(); ++price) {
-                Cost& least = labels_.node(to).least[price];
-                least = std::max(least, bounds_[price][end->network]);
-            }
-            edges_.push_back(labels_.make_edge(to, steps_, executions_));
-        }
-    }
-    labels_.set_edges(node, edges_);
-}
-
-// Go on from a successor as long as it has a single one itself: no label ends between, and no bound is asked for.
-// Returns where that ends; nothing where it is a dead end.
-std::optional<LabelSearch::Place> LabelSearch::follow(const Successor& successor) {
-    take(successor);
-    Place place{successor.state, successor.network};
-    for (std::uint32_t step = 0; options_.follow_forced && step < kMostForcedSteps; ++step) {
-        limits_.stop_if_reached();
-        if (progression_.networks().is_empty(place.network) ||
-            !progression_.expand_if_forced(place.state, place.network, forced_)) {
-            break;
-        }
-        if (forced_.empty()) {
-            return std::nullopt;
-        }
-        take(forced_.front());
-        place = {forced_.front().state, forced_.front().network};
-    }
-    return place;
-}
-
-void LabelSearch::take(const Successor& successor) {
-    steps_.push_back(successor.step);
-    if (successor.action) {
-        executions_.push_back({*successor.action, labels_.store(successor.due_parts)});
     }
 }
 

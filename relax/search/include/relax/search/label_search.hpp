@@ -10,9 +10,9 @@
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/heuristics/selective_heuristic.hpp"
-#include "relax/networks/network_bounds.hpp"
 #include "relax/progression/progression.hpp"
 #include "relax/search/action_lists.hpp"
+#include "relax/search/label_edges.hpp"
 #include "relax/search/label_space.hpp"
 #include "relax/search/open_list.hpp"
 #include "relax/search/search_options.hpp"
@@ -75,13 +75,6 @@ private:
     void ask(LabelSpace::Node& node);
     std::uint64_t work() const;
     void expand(LabelId id);
-    struct Place {
-        StateId state;
-        NetworkId network;
-    };
-    void find_edges(NodeId node);
-    std::optional<Place> follow(const Successor& successor);
-    void take(const Successor& successor);
     void inherit(NodeId parent, const Edge& edge);
     void generate(LabelId parent, const Edge& edge);
     bool is_wanted(Worth bound);
@@ -99,20 +92,15 @@ private:
     Limits& limits_;
     LabelStatistics& statistics_;
     Progression& progression_;
-    std::vector<NetworkBounds> bounds_;           // by price
     std::vector<SelectiveHeuristic> heuristics_;  // by price, once they are asked
     ActionLists lists_;
     LabelSpace labels_;
+    LabelEdges edges_;
     OpenList<LabelId> open_;
     std::vector<LabelId> plans_;  // the best that were found, the best first
     Worth cutoff_;                // plans are wanted that are worth less
     bool has_pruned_ = false;     // there may be more plans than those that were found ...
     bool has_left_out_ = false;   // ... even while fewer were found than are wanted
-    std::vector<Successor> successors_;
-    std::vector<Successor> forced_;
-    std::vector<SearchStep> steps_;
-    std::vector<Execution> executions_;
-    std::vector<Edge> edges_;
 };
 
 // Make and run it; a limit that is reached while it is being made is a result, too.
