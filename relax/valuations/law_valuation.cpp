@@ -75,7 +75,7 @@ ValueId LawValuation::extend(ValueId value, ActionId action, std::span<const Cos
 Worth LawValuation::worth(ValueId value) { return order_of(objective_->value(law(value))); }
 
 Worth LawValuation::bound(ValueId value, const CostToCome& to_come, std::uint32_t stage) {
-    if (std::ranges::any_of(to_come.least, [](Cost least) { return least >= kInfinity; })) {
+    if (to_come.is_dead_end()) {
         return kNoWorth;
     }
     if (stage == 0) {

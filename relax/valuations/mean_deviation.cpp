@@ -43,7 +43,7 @@ Worth MeanDeviation::worth(ValueId value) {
 // The value rises in both sums, and is concave: with a mix of theirs bounded, too, it is least where one sum alone is
 // raised.
 Worth MeanDeviation::bound(ValueId value, const CostToCome& to_come, std::uint32_t /*stage*/) {
-    if (std::ranges::find(to_come.least, kInfinity) != to_come.least.end()) {
+    if (to_come.is_dead_end()) {
         return kNoWorth;
     }
     const std::span<const Cost> sums = sums_[value];
@@ -66,9 +66,7 @@ Worth MeanDeviation::bound(ValueId value, const CostToCome& to_come, std::uint32
 }
 
 bool MeanDeviation::are_as_good(std::span<const ValueId> ways, ValueId other, const CostToCome& to_come) {
-    const std::span<const Cost> sums = sums_[other];
-    const auto is_nowhere_more = [&](ValueId one) { return std::ranges::equal(sums_[one], sums, std::less_equal<>()); };
-    if (std::ranges::any_of(ways, is_nowhere_more)) {
+    if (std::ranges::any_of(ways, [&](ValueId one) { return sums_.is_nowhere_more(one, other); })) {
         return true;
     }
     if (!options_.compare_boxes) {

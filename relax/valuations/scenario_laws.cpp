@@ -1,6 +1,7 @@
 #include "relax/valuations/scenario_laws.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -23,6 +24,12 @@ LawDetail detail_of(const LawObjective& objective, std::span<const ScenarioBudge
     return detail;
 }
 
+std::vector<const PricedProblem*> least_of(std::span<const ScenarioCosts> scenarios) {
+    std::vector<const PricedProblem*> least;
+    std::ranges::transform(scenarios, std::back_inserter(least), &ScenarioCosts::least);
+    return least;
+}
+
 std::uint64_t hash_of(std::span<const LawId> laws) {
     std::uint64_t hash = laws.size();
     for (const LawId law : laws) {
@@ -40,23 +47,16 @@ ScenarioLaws::Scenario::Scenario(const ScenarioCosts& costs, const LawDetail& de
       sums({.last = std::numeric_limits<double>::infinity(), .is_flat_beyond = false, .most_outcomes = kMostOutcomes}) {
 }
 
-ScenarioLaws::ScenarioLaws(std::vector<ScenarioCosts> scenarios, std::vector<ScenarioTangent> tangents,
+ScenarioLaws::ScenarioLaws(const std::vector<ScenarioCosts>& scenarios, std::vector<ScenarioTangent> tangents,
                            bool asks_scenarios, std::shared_ptr<const LawObjective> objective,
                            std::vector<ScenarioBudget> budgets, const ScenarioOptions& options,
                            const LawOptions& law_options)
-    : tangents_(std::move(tangents)),
-      asks_scenarios_(asks_scenarios),
-      objective_(std::move(objective)),
-      budgets_(std::move(budgets)),
-      options_(options),
+    : ScenarioValuation(std::move(tangents), least_of(scenarios), asks_scenarios, std::move(objective),
+                        std::move(budgets), options),
       law_options_(law_options) {
-    for (const ScenarioTangent& tangent : tangents_) {
-        prices_.push_back(tangent.priced);
-    }
-    const LawDetail detail = detail_of(*objective_, budgets_);
+    const LawDetail detail = detail_of(this->objective(), this->budgets());
     for (const ScenarioCosts& costs : scenarios) {
         scenarios_.emplace_back(costs, detail, law_options);
-        prices_.push_back(costs.least);
     }
 }
 
@@ -90,31 +90,14 @@ Worth ScenarioLaws::worth(ValueId value) {
             mixture_.add(law.at[i], scenarios_[k].probability * law.probability[i]);
         }
     }
-    const Law& law = mixture_.law();
-    const auto is_missed = [&](const ScenarioBudget& budget) { return budget.deadline->value(law) > budget.most; };
-    return std::ranges::any_of(budgets_, is_missed) ? kNoWorth : order_of(objective_->value(law));
+    return worth_of(mixture_.law());
 }
 
 Worth ScenarioLaws::bound(ValueId value, const CostToCome& to_come, std::uint32_t stage) {
-    if (std::ranges::any_of(to_come.least, [](Cost least) { return least >= kInfinity; })) {
+    if (to_come.is_dead_end()) {
         return kNoWorth;
     }
-    const Law& law = stage == 0 ? shifted(value, to_come) : with_graphs(value, to_come);
-    if (!can_keep_all(law)) {
-        return kNoWorth;
-    }
-    double bound = objective_->bound(law, 0.0);
-    if (options_.tangent_bound && objective_->is_concave()) {
-        for (std::size_t i = 0; i < tangents_.size(); ++i) {
-            bound = std::max(bound, tangents_[i].bound(spent(value, tangents_[i]), to_come.least[i]));
-        }
-    }
-    return order_of(bound);
-}
-
-bool ScenarioLaws::can_keep_all(const Law& law) const {
-    return std::ranges::all_of(
-        budgets_, [&](const ScenarioBudget& budget) { return budget.deadline->bound(law, 0.0) <= budget.most; });
+    return bound_of(stage == 0 ? shifted(value, to_come) : with_graphs(value, to_come), value, to_come);
 }
 
 // The mixture of what a way has cost and the least costs to come.
@@ -166,16 +149,11 @@ double ScenarioLaws::spent(ValueId value, const ScenarioTangent& tangent) const 
     return sum;
 }
 
-Cost ScenarioLaws::tie_break(ValueId value, const CostToCome& to_come) {
-    const ScenarioTangent& first = tangents_.front();
-    return first.tie_break(spent(value, first), to_come.least.front());
-}
-
 bool ScenarioLaws::is_as_good(ValueId one, ValueId other, const CostToCome& to_come) {
     if (one == other) {
         return true;
     }
-    if (!options_.compare_scenarios) {
+    if (!options().compare_scenarios) {
         return false;
     }
     for (std::size_t k = 0; k < scenarios_.size(); ++k) {
@@ -187,7 +165,7 @@ bool ScenarioLaws::is_as_good(ValueId one, ValueId other, const CostToCome& to_c
         const auto is_as_good_by = [&](const LawObjective& objective) {
             return relax::is_as_good(objective, law_options_, law, other_law, least(to_come, k));
         };
-        if (!is_as_good_by(*objective_) || !std::ranges::all_of(budgets_, [&](const ScenarioBudget& budget) {
+        if (!is_as_good_by(objective()) || !std::ranges::all_of(budgets(), [&](const ScenarioBudget& budget) {
                 return is_as_good_by(*budget.deadline);
             })) {
             return false;

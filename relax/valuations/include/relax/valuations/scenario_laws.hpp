@@ -17,10 +17,9 @@
 #include "relax/valuations/law_objective.hpp"
 #include "relax/valuations/law_options.hpp"
 #include "relax/valuations/law_table.hpp"
-#include "relax/valuations/mixture.hpp"
 #include "relax/valuations/scenario_options.hpp"
 #include "relax/valuations/scenario_tangent.hpp"
-#include "relax/valuations/valuation.hpp"
+#include "relax/valuations/scenario_valuation.hpp"
 
 namespace relax {
 
@@ -45,24 +44,19 @@ struct ScenarioCosts {
 //
 // Jensen's inequality with what is to come in the mean over all scenarios is no bound: what is to come depends on the
 // scenario, as does what the way has cost.
-class ScenarioLaws final : public Valuation {
+class ScenarioLaws final : public ScenarioValuation {
 public:
-    // `asks_scenarios`: whether a heuristic is asked at the least costs in each scenario, too, and not only at the
-    // prices of the tangents, of which there is at least one; the first has no price 0 that is not certain. All prices
-    // must live longer.
-    ScenarioLaws(std::vector<ScenarioCosts> scenarios, std::vector<ScenarioTangent> tangents, bool asks_scenarios,
-                 std::shared_ptr<const LawObjective> objective, std::vector<ScenarioBudget> budgets,
-                 const ScenarioOptions& options, const LawOptions& law_options);
+    // See ScenarioValuation; the first tangent has no price 0 that is not certain.
+    ScenarioLaws(const std::vector<ScenarioCosts>& scenarios, std::vector<ScenarioTangent> tangents,
+                 bool asks_scenarios, std::shared_ptr<const LawObjective> objective,
+                 std::vector<ScenarioBudget> budgets, const ScenarioOptions& options, const LawOptions& law_options);
 
-    std::span<const PricedProblem* const> prices() const override { return prices_; }
-    std::size_t asked() const override { return asks_scenarios_ ? prices_.size() : tangents_.size(); }
     void begin(const TaskNetworks& networks, Limits& limits) override;
     ValueId start() override;
     ValueId extend(ValueId value, ActionId action, std::span<const CostPartId> due_parts) override;
     Worth worth(ValueId value) override;
-    std::uint32_t stages() const override { return options_.ideal_bound && law_options_.graph_bound ? 2 : 1; }
+    std::uint32_t stages() const override { return options().ideal_bound && law_options_.graph_bound ? 2 : 1; }
     Worth bound(ValueId value, const CostToCome& to_come, std::uint32_t stage) override;
-    Cost tie_break(ValueId value, const CostToCome& to_come) override;
     bool is_as_good(ValueId one, ValueId other, const CostToCome& to_come) override;
 
 private:
@@ -78,22 +72,14 @@ private:
     std::span<const LawId> laws(ValueId value) const { return {rows_[value], scenarios_.size()}; }
     ValueId intern();
     double least(const CostToCome& to_come, std::size_t scenario) const {
-        return options_.ideal_bound ? static_cast<double>(to_come.least[tangents_.size() + scenario]) : 0.0;
+        return options().ideal_bound ? static_cast<double>(least_by_scenario(to_come)[scenario]) : 0.0;
     }
-    double spent(ValueId value, const ScenarioTangent& tangent) const;
+    double spent(ValueId value, const ScenarioTangent& tangent) const override;
     const Law& shifted(ValueId value, const CostToCome& to_come);
     const Law& with_graphs(ValueId value, const CostToCome& to_come);
-    bool can_keep_all(const Law& law) const;
 
     std::deque<Scenario> scenarios_;
-    std::vector<ScenarioTangent> tangents_;
-    std::vector<const PricedProblem*> prices_;  // those of the tangents, then by scenario
-    bool asks_scenarios_;
-    std::shared_ptr<const LawObjective> objective_;
-    std::vector<ScenarioBudget> budgets_;
-    ScenarioOptions options_;
     LawOptions law_options_;
-    Mixture mixture_;
     std::vector<double> at_;
     std::vector<double> probability_;
 

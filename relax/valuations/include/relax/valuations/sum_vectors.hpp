@@ -1,6 +1,8 @@
 #ifndef RELAX_VALUATIONS_SUM_VECTORS_HPP
 #define RELAX_VALUATIONS_SUM_VECTORS_HPP
 
+#include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,6 +22,10 @@ public:
 
     std::span<const PricedProblem* const> prices() const { return prices_; }
     std::span<const Cost> operator[](ValueId value) const { return {rows_[value], prices_.size()}; }
+    // Whether none of its sums is larger than the other's.
+    bool is_nowhere_more(ValueId one, ValueId other) const {
+        return std::ranges::equal((*this)[one], (*this)[other], std::less_equal<>());
+    }
     ValueId start();
     ValueId extend(ValueId value, ActionId action, std::span<const CostPartId> due_parts);
 

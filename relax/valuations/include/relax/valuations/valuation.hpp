@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "relax/analysis/priced_problem.hpp"
+#include "relax/base/cost.hpp"
 #include "relax/base/ids.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/base/worth.hpp"
@@ -23,6 +24,10 @@ using ValueId = Id<struct ValueTag>;
 struct CostToCome {
     NetworkId network;
     std::span<const Cost> least;  // by the valuation's prices: it costs at least so much; `kInfinity` for a dead end
+
+    bool is_dead_end() const {
+        return std::ranges::any_of(least, [](Cost cost) { return cost >= kInfinity; });
+    }
 };
 
 // How a label search values plans: by the sum of what their actions cost, in a form that the valuation knows. Sums are
