@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from statehtn.model import Problem, Step
-from tests.all_laws import MOST_NODES, MOST_OUTCOMES, Actions, Budget
-from tests.brute_force import LARGEST_NETWORK, Canonical, GaveUp, Node, Pending, Space, Task
-from tests.exact_laws import Law, Laws
+from tests.all_laws import MOST_NODES, MOST_OUTCOMES, Actions, Budget, LawSpace
+from tests.brute_force import LARGEST_NETWORK, Canonical, GaveUp, Node
+from tests.exact_laws import Law
 from tests.exact_objectives import SLACK, ExactObjective
 from tests.naive_semantics import State
 
@@ -32,20 +32,18 @@ class Plan:
     value: Fraction
 
 
-class ScenarioSpace:
+class ScenarioSpace(LawSpace):
     """The search space of a problem, with the laws of what its steps cost in each scenario."""
 
     def __init__(self, problem: Problem) -> None:
-        self.space = Space(problem)
-        self.laws = Laws()
+        super().__init__(problem)
         self.scenarios = [scenario.facts for scenario in problem.scenarios]
         outcomes = itertools.product(*(chance.outcomes for chance in problem.chances))
         self.weights = dict.fromkeys(self.scenarios, Fraction(0))
         for chosen in outcomes:
             facts: frozenset[tuple[str, ...]] = frozenset().union(*(outcome.facts for outcome in chosen))
             self.weights[facts] += math.prod((outcome.probability for outcome in chosen), start=Fraction(1))
-        self.always: dict[str, Law] = {}
-        self.costs: dict[tuple[Step, State], Given] = {}
+        self.given: dict[tuple[Step, State], Given] = {}
 
     def mixture(self, given: Given, more: Law) -> Law:
         """The law over all scenarios of what was spent and an independent cost."""
@@ -55,32 +53,14 @@ class ScenarioSpace:
                 found[cost] = found.get(cost, Fraction(0)) + self.weights[facts] * probability
         return self.laws.of(found)
 
-    def due(self, network: Sequence[Pending]) -> Law:
-        """The law of what the actions in a network cost in every state, whatever is hidden."""
-        total = self.laws.zero
-        for pending in sorted(network, key=lambda one: one.label):
-            total = self.laws.sum(total, self.always_due(pending))
-        return total
-
-    def always_due(self, pending: Pending) -> Law:
-        if pending.label not in self.always:
-            law = self.laws.zero
-            actions = self.space.problem.domain.actions
-            if isinstance(pending, Task) and pending.name in actions:
-                semantics = self.space.semantics
-                if semantics.bind(actions[pending.name], pending.arguments) is not None:
-                    law = self.laws.of(semantics.exact_law(pending.name, pending.arguments, None))
-            self.always[pending.label] = law
-        return self.always[pending.label]
-
     def after(self, given: Given, step: Step, state: State) -> Given:
         """What was spent in each scenario after an action."""
-        if (step, state) not in self.costs:
+        if (step, state) not in self.given:
             exact = self.space.semantics.exact_law
-            self.costs[step, state] = tuple(
+            self.given[step, state] = tuple(
                 self.laws.of(exact(step.action, step.arguments, state | facts)) for facts in self.scenarios
             )
-        return tuple(map(self.laws.sum, given, self.costs[step, state]))
+        return tuple(map(self.laws.sum, given, self.given[step, state]))
 
 
 def best_plan(
