@@ -9,8 +9,7 @@ from typing import Any
 
 from statehtn.compatible import LABEL_SWITCHES
 from statehtn.core.grounding import Grounding, ground
-from statehtn.core.label_search import search_labels
-from statehtn.core.plan_based import search_networks, search_networks_by_labels
+from statehtn.core.plan_based import search_networks
 from statehtn.core.pricing import PricedProblem, price
 from statehtn.core.progress import Progress, TopProgress
 from statehtn.core.search import improving_plans
@@ -86,26 +85,11 @@ class Session:
         self, settings: Settings, limits: Limits, meter: Meter, progress: ProgressCallback | None
     ) -> Iterator[SearchOutcome]:
         """Read, ground and price the problem, and return the search for a plan, which begins with its first outcome."""
-        needs_labels = settings.needs_labels or self._hangs_together(settings, limits, meter)
-        if needs_labels and settings.search == "weighted":
-            raise UsageError(
-                f"the weighted search adds up prices of actions, which '{settings.objective}' has none of where costs "
-                f"hang together; take astar or anytime"
-            )
-        if needs_labels and (lacking := [name for name in settings.without if name not in LABEL_SWITCHES]):
-            raise UsageError(
-                f"the search by '{settings.objective}' where costs hang together has no refinement '{lacking[0]}'"
-            )
-        if settings.search == "greedy" and needs_labels:
-            return map(_by_the_mean, self.search(replace(settings, objective=Neutral()), limits, meter, progress))
-        if needs_labels and settings.solver == "plan":
-            how = partial(search_networks_by_labels, branch=settings.branch)
-            return self._by_labels(how, settings, limits, meter, progress)
-        if needs_labels:
-            takes = TAKES["state", "top"]
-            heuristic = settings.heuristic if settings.heuristic in takes else takes[0]
-            how = partial(search_labels, heuristic=heuristic, switches=settings.label_switches)
-            return self._by_labels(how, settings, limits, meter, progress)
+        if settings.needs_labels or self._hangs_together(settings, limits, meter):
+            _refuse_what_needs_prices(settings)
+            if settings.search == "greedy":
+                return map(_by_the_mean, self.search(replace(settings, objective=Neutral()), limits, meter, progress))
+            return self._by_labels(_label_search(settings), settings, limits, meter, progress)
         problem = self.price(settings.prices, limits, meter)
         if settings.solver == "plan":
             heuristic, branch = settings.heuristic, settings.branch
@@ -119,8 +103,7 @@ class Session:
         """Read, ground and price the problem, and return the search for the best plans."""
         k, distinct, heuristic = settings.k, settings.distinct, settings.heuristic
         if settings.needs_labels or self._hangs_together(settings, limits, meter):
-            how = partial(search_labels, k=k, distinct=distinct, heuristic=heuristic)
-            return self._by_labels(how, settings, limits, meter, progress)
+            return self._by_labels(_label_search(settings), settings, limits, meter, progress)
         problem = self.price(settings.prices, limits, meter)
         found = find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
         return iter((found,))
@@ -158,6 +141,36 @@ class Session:
         what = {"keep": settings.keep, "precision": settings.precision}
         with meter.timed("search"):
             return search(grounding, settings.objective, **what, limits=limits, progress=progress)
+
+
+def _label_search(settings: Settings | TopSettings) -> Callable[..., Iterator[SearchOutcome]]:
+    """Return the search over labels that is asked for."""
+    from statehtn.core.label_search import search_labels, search_networks_by_labels  # most runs do without
+
+    if isinstance(settings, TopSettings):
+        return partial(search_labels, k=settings.k, distinct=settings.distinct, heuristic=settings.heuristic)
+    if settings.solver == "plan":
+        return partial(search_networks_by_labels, branch=settings.branch)
+    takes = TAKES["state", "top"]
+    heuristic = settings.heuristic if settings.heuristic in takes else takes[0]
+    return partial(search_labels, heuristic=heuristic, switches=settings.label_switches)
+
+
+def _refuse_what_needs_prices(settings: Settings) -> None:
+    """Refuse what takes prices that add up, where an objective has them but for costs that hang together.
+
+    Raises:
+        UsageError: something does.
+    """
+    if settings.search == "weighted":
+        raise UsageError(
+            f"the weighted search adds up prices of actions, which '{settings.objective}' has none of where costs "
+            f"hang together; take astar or anytime"
+        )
+    if lacking := [name for name in settings.without if name not in LABEL_SWITCHES]:
+        raise UsageError(
+            f"the search by '{settings.objective}' where costs hang together has no refinement '{lacking[0]}'"
+        )
 
 
 def _by_the_mean(outcome: SearchOutcome) -> SearchOutcome:

@@ -57,8 +57,26 @@ BranchName = Literal["fewest", "all"]
 DistinctName = Literal["sequence", "multiset"]
 
 
+class _Compared:
+    """Plans are compared by an objective, of those that keep budgets."""
+
+    __slots__ = ()
+    objective: Objective
+    keep: tuple[Keep, ...]
+
+    @property
+    def needs_labels(self) -> bool:
+        """Whether a node's cost so far is more than one number: no price for each action says it all."""
+        return not prices_add_up(self.objective, self.keep)
+
+    @property
+    def prices(self) -> AdditiveObjective:
+        """The objective where prices add up."""
+        return _additive(self.objective)
+
+
 @dataclass(frozen=True, slots=True)
-class Settings:
+class Settings(_Compared):
     """What to optimise, and how; make one by `Settings.of`, which checks it."""
 
     objective: Objective
@@ -112,16 +130,6 @@ class Settings:
         return Settings(wanted, *how, kept, precision_of(precision, wanted, kept))
 
     @property
-    def needs_labels(self) -> bool:
-        """Whether a node's cost so far is more than one number: no price for each action says it all."""
-        return not prices_add_up(self.objective, self.keep)
-
-    @property
-    def prices(self) -> AdditiveObjective:
-        """The objective where prices add up."""
-        return _additive(self.objective)
-
-    @property
     def switches(self) -> SearchSwitches:
         """The refinements of a search by prices, without those to leave out."""
         return SearchSwitches(**dict.fromkeys(self.without, False))
@@ -138,7 +146,7 @@ class Settings:
 
 
 @dataclass(frozen=True, slots=True)
-class TopSettings:
+class TopSettings(_Compared):
     """Which of the best plans are wanted, and how to find them; make one by `TopSettings.of`, which checks it."""
 
     objective: Objective
@@ -172,16 +180,6 @@ class TopSettings:
         one_of(heuristic, ADMISSIBLE, "heuristic for the best plans")
         wanted, kept = objective_of(objective), keeps(keep)
         return TopSettings(wanted, k, distinct, heuristic, kept, precision_of(precision, wanted, kept))
-
-    @property
-    def needs_labels(self) -> bool:
-        """Whether a node's cost so far is more than one number: no price for each action says it all."""
-        return not prices_add_up(self.objective, self.keep)
-
-    @property
-    def prices(self) -> AdditiveObjective:
-        """The objective where prices add up."""
-        return _additive(self.objective)
 
     @property
     def problem_class(self) -> str | None:

@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from statehtn import Problem, Status, validate
 from statehtn.core.grounding import ground
 from statehtn.core.label_run import PRECISION
-from statehtn.core.label_search import search_labels
+from statehtn.core.label_search import search_labels, search_networks_by_labels
 from statehtn.core.labels import Support
-from statehtn.core.plan_based import search_networks_by_labels
 from statehtn.core.scenario_labels import ScenarioLabels
 from statehtn.core.search_run import SearchOutcome
 from statehtn.core.switches import LabelSwitches, LawSwitches, ScenarioSwitches

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from statehtn import Status
 from statehtn.core.grounding import ground
 from statehtn.core.label_run import PRECISION
-from statehtn.core.label_search import search_labels
-from statehtn.core.plan_based import search_networks_by_labels
+from statehtn.core.label_search import search_labels, search_networks_by_labels
 from statehtn.core.search import find_plans, last_of
 from statehtn.core.switches import LabelSwitches
 from statehtn.model import Problem

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import statehtn._relax as _relax
-from statehtn.core.action_names import action_names
+from statehtn.core.action_names import Key, action_names, key_of
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels
 from statehtn.core.progress import Progress, SearchProgress, TopProgress
@@ -20,8 +20,6 @@ from statehtn.risk.keep import Keep
 
 PRECISION = 1e-6
 """How much of its value, or of 1 if that is more, a plan that is called optimal may be worse than the best."""
-Key = tuple[int, ...]
-"""What no two plans have in common: their actions, in the order of their execution or sorted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,8 +186,7 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
     def _key(self, trace: _relax.SearchResult) -> Key:
         if self.options.count == 1:
             return ()  # the best plan is enough
-        own = [name for action in trace.actions if (name := self.names[action]) is not None]
-        return tuple(own if self.options.distinct == _relax.Distinct.Sequence else sorted(own))
+        return key_of(trace.actions, self.names, self.options.distinct)
 
 
 class NetworkRun(LabelRun):

@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
-from statehtn.core.label_run import PRECISION, LabelRun
+from statehtn.core.label_run import PRECISION, LabelRun, NetworkRun
+from statehtn.core.plan_based import plan_based_options
 from statehtn.core.progress import SearchProgress
 from statehtn.core.search_run import SearchOutcome
 from statehtn.core.switches import LabelSwitches, TopSwitches, set_switches
@@ -54,3 +55,24 @@ def search_labels(
     set_switches(options, switches, TopSwitches)
     labels = labels_of(grounding, objective, keep, switches, limits)
     return LabelRun(grounding, labels, options, keep, precision, limits, progress).outcomes()
+
+
+def search_networks_by_labels(
+    grounding: Grounding,
+    objective: Objective,
+    *,
+    keep: Sequence[Keep] = (),
+    branch: str = "fewest",
+    checks_preconditions: bool = True,
+    precision: float = PRECISION,
+    limits: Limits = Limits(),
+    progress: Callable[[SearchProgress], None] | None = None,
+    switches: LabelSwitches = LabelSwitches(),
+) -> Iterator[SearchOutcome]:
+    """Search task networks for the plan of least value, as `search_labels` does over states and networks.
+
+    A network determines which actions it has, so that it has one label: the paper's Algorithm 3 with another f.
+    """
+    options = plan_based_options("tdg", branch, checks_preconditions)
+    labels = labels_of(grounding, objective, keep, switches, limits)
+    return NetworkRun(grounding, labels, options, keep, precision, limits, progress).outcomes()

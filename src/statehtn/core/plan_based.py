@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import statehtn._relax as _relax
-from statehtn.core.grounding import Grounding
-from statehtn.core.label_run import PRECISION, NetworkRun
 from statehtn.core.pricing import PricedProblem
-from statehtn.core.progress import Progress, SearchProgress
+from statehtn.core.progress import Progress
 from statehtn.core.search_run import SearchOutcome
 from statehtn.core.staged_run import StagedRun
-from statehtn.core.switches import LabelSwitches
-from statehtn.core.valuations import labels_of
 from statehtn.limits import Limits
-from statehtn.risk.keep import Keep
-from statehtn.risk.objective import Objective
 
 BRANCHES = {
     "fewest": "the compound task with the fewest methods",
@@ -45,32 +39,12 @@ def search_networks(
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
     """
-    options = _options(heuristic, branch, checks_preconditions)
+    options = plan_based_options(heuristic, branch, checks_preconditions)
     return StagedRun(problem, limits, progress).outcomes([options])
 
 
-def search_networks_by_labels(
-    grounding: Grounding,
-    objective: Objective,
-    *,
-    keep: Sequence[Keep] = (),
-    branch: str = "fewest",
-    checks_preconditions: bool = True,
-    precision: float = PRECISION,
-    limits: Limits = Limits(),
-    progress: Callable[[SearchProgress], None] | None = None,
-    switches: LabelSwitches = LabelSwitches(),
-) -> Iterator[SearchOutcome]:
-    """Search task networks for the plan of least value, as `search_labels` does over states and networks.
-
-    A network determines which actions it has, so that it has one label: the paper's Algorithm 3 with another f.
-    """
-    options = _options("tdg", branch, checks_preconditions)
-    labels = labels_of(grounding, objective, keep, switches, limits)
-    return NetworkRun(grounding, labels, options, keep, precision, limits, progress).outcomes()
-
-
-def _options(heuristic: str, branch: str, checks_preconditions: bool) -> _relax.PlanBasedOptions:
+def plan_based_options(heuristic: str, branch: str, checks_preconditions: bool) -> _relax.PlanBasedOptions:
+    """Return what the core is asked for, whatever plans are compared by; see `search_networks`."""
     options = _relax.PlanBasedOptions()
     options.heuristic = heuristic
     options.branches_over_all = branch == "all"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 import statehtn._relax as _relax
-from statehtn.core.action_names import action_names
+from statehtn.core.action_names import Key, action_names, key_of
 from statehtn.core.pricing import PricedProblem, PricedTrace
 from statehtn.core.progress import TopProgress
 from statehtn.core.scale import TOLERANCE, Scale
@@ -14,9 +14,6 @@ from statehtn.core.search_run import PricedRun, SearchOutcome, TracedPlans
 from statehtn.effort import SearchEffort
 from statehtn.limits import Limits
 from statehtn.model.status import Status
-
-Key = tuple[int, ...]
-"""What no two plans have in common: their actions, in the order of their execution or sorted."""
 
 
 class TopRun(PricedRun[TopProgress, _relax.LabelStatistics]):
@@ -92,6 +89,4 @@ class TopRun(PricedRun[TopProgress, _relax.LabelStatistics]):
         return TopProgress(seconds, effort, bound, found, proven)
 
     def _key(self, plan: PricedTrace) -> Key:
-        names = (self.action_names[action] for action in plan.actions)
-        own = [name for name in names if name is not None]
-        return tuple(own if self.options.distinct == _relax.Distinct.Sequence else sorted(own))
+        return key_of(plan.actions, self.action_names, self.options.distinct)

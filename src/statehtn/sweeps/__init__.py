@@ -14,7 +14,6 @@ from statehtn.limits import Limits
 from statehtn.result import Result
 from statehtn.session import ProgressCallback, Session
 from statehtn.settings import Settings
-from statehtn.sweeps.evar import EvarSweep
 
 
 def solutions(
@@ -26,6 +25,8 @@ def solutions(
 ) -> Iterator[Result]:
     """Search for a plan; yield better and better ones, if `every_plan`, and last how the run ended."""
     if is_swept(settings.objective, settings.keep) and settings.search != "greedy":
+        from statehtn.sweeps.evar import EvarSweep  # most runs need none
+
         results = EvarSweep(session, settings, limits, progress).results()
     else:
         results = pipeline.solutions(session, settings, limits, progress, every_plan)
