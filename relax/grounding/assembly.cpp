@@ -31,8 +31,7 @@ public:
                 table_.find(hash, [&](std::uint32_t test) { return std::ranges::equal(contents_[test], content); })) {
             return nodes_[*known];
         }
-        table_.add(hash, static_cast<std::uint32_t>(nodes_.size()),
-                   [this](std::uint32_t test) { return hash_values(contents_[test]); });
+        table_.add(hash, static_cast<std::uint32_t>(nodes_.size()));
         contents_.add_row(content);
         nodes_.push_back(node);
         return node;

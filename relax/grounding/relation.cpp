@@ -18,7 +18,7 @@ TupleId Relation::add(std::span<const ObjectId> tuple) {
         return *known;
     }
     values_.append(tuple.begin(), tuple.end());
-    table_.add(hash, size_, [this](TupleId other) { return hash_values((*this)[other]); });
+    table_.add(hash, size_);
     const TupleId fresh = size_++;
     for (Index& index : indexes_) {
         if (index.is_complete) {
@@ -75,13 +75,10 @@ void Relation::show_all(Limits& limits) {
 void Relation::insert(Index& index, TupleId tuple) const {
     assert(index.older.size() == tuple);
     std::vector<ObjectId> key;
-    const auto read_key = [&](TupleId of) {
-        key.clear();
-        for (const std::uint32_t position : index.positions) {
-            key.push_back((*this)[of][position]);
-        }
-    };
-    read_key(tuple);
+    key.reserve(index.positions.size());
+    for (const std::uint32_t position : index.positions) {
+        key.push_back((*this)[tuple][position]);
+    }
     if (const auto known = find_key(index, key)) {
         index.older.push_back(index.newest[*known]);
         index.newest[*known] = tuple;
@@ -92,10 +89,7 @@ void Relation::insert(Index& index, TupleId tuple) const {
     index.older.push_back(tuple);
     index.newest.push_back(tuple);
     index.count.push_back(1);
-    index.table.add(hash_values(key), fresh, [&](std::uint32_t other) {
-        read_key(index.newest[other]);
-        return hash_values(key);
-    });
+    index.table.add(hash_values(key), fresh);
 }
 
 std::optional<std::uint32_t> Relation::find_key(const Index& index, std::span<const ObjectId> key) const {

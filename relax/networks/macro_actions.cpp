@@ -113,7 +113,7 @@ MacroId MacroActions::intern(Macro macro) {
     }
     const auto id = static_cast<MacroId>(macros_.size());
     macros_.push_back(std::move(macro));
-    table_.add(hash_of_it, id, [this](MacroId other) { return hash(macros_[other]); });
+    table_.add(hash_of_it, id);
     return id;
 }
 

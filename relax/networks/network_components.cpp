@@ -43,9 +43,7 @@ ComponentId NetworkComponents::intern(const OrderedTasks& draft, std::vector<std
     const auto run = words_.allocate(form_.size());
     std::copy(form_.begin(), form_.end(), run.begin());
     records_.push_back({run.data(), static_cast<std::uint32_t>(count), unconstrained});
-    table_.add(hash, id, [this](ComponentId other) {
-        return hash_values(std::span(records_[other].words, form_words(records_[other].size)));
-    });
+    table_.add(hash, id);
     return id;
 }
 

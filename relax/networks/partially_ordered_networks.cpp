@@ -108,9 +108,7 @@ std::span<const ComponentId> PartiallyOrderedNetworks::change(ComponentId compon
     std::ranges::transform(parts_, to.begin(), &Part::id);
     std::ranges::sort(to);
     transitions_.push_back({component, index, method, static_cast<std::uint32_t>(to.size()), to.data()});
-    transition_table_.add(hash, static_cast<std::uint32_t>(transitions_.size() - 1), [this](std::uint32_t id) {
-        return hash_step(transitions_[id].from, transitions_[id].index, transitions_[id].method);
-    });
+    transition_table_.add(hash, static_cast<std::uint32_t>(transitions_.size() - 1));
     return to;
 }
 
@@ -263,7 +261,7 @@ NetworkId PartiallyOrderedNetworks::intern(std::span<const ComponentId> list) {
     record.components = run.data();
     const auto id = static_cast<NetworkId>(records_.size());
     records_.push_back(record);
-    table_.add(hash, id, [this](NetworkId other) { return hash_values(components(other)); });
+    table_.add(hash, id);
     return id;
 }
 

@@ -110,7 +110,7 @@ NetworkId TotallyOrderedNetworks::intern(TaskId first, NetworkId rest) {
     }
     const auto id = static_cast<NetworkId>(cells_.size());
     cells_.push_back({first, rest, cells_[rest].size + 1, macros_ ? form_of(first, cells_[rest].form) : kEmptyForm});
-    table_.add(hash, id, [this](NetworkId other) { return hash_cell(cells_[other].first, cells_[other].rest); });
+    table_.add(hash, id);
     return id;
 }
 
@@ -142,7 +142,7 @@ FormId TotallyOrderedNetworks::intern_form(std::uint32_t first, FormId rest) {
     }
     const auto id = static_cast<FormId>(forms_.size());
     forms_.push_back({first, rest});
-    form_table_.add(hash, id, [this](FormId other) { return hash_cell(forms_[other].first, forms_[other].rest); });
+    form_table_.add(hash, id);
     return id;
 }
 

@@ -72,7 +72,7 @@ StateId StateRegistry::intern(std::span<const std::uint64_t> state) {
     const auto run = words_.allocate(word_count_);
     std::copy(state.begin(), state.end(), run.begin());
     starts_.push_back(run.data());
-    table_.add(hash, id, [this](StateId other) { return hash_values((*this)[other]); });
+    table_.add(hash, id);
     return id;
 }
 

@@ -29,7 +29,7 @@ ActionListId ActionLists::intern(ActionName last, ActionListId before) {
     }
     const auto id = static_cast<ActionListId>(cells_.size());
     cells_.push_back({last, before});
-    table_.add(hash, id, [this](ActionListId other) { return hash_cell(cells_[other].last, cells_[other].before); });
+    table_.add(hash, id);
     return id;
 }
 

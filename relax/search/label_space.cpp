@@ -28,8 +28,7 @@ NodeId LabelSpace::find_node(StateId state, NetworkId network) {
     std::ranges::fill(least, 0);
     nodes_.push_back({state, network, least, 0, false, {}});
     kept_.push_back({});
-    node_table_.add(hash_of(state, network), id,
-                    [this](NodeId other) { return hash_of(nodes_[other].state, nodes_[other].network); });
+    node_table_.add(hash_of(state, network), id);
     return id;
 }
 

@@ -108,13 +108,13 @@ bool Budgets::is_as_good(ValueId one, ValueId other, const CostToCome& to_come) 
 }
 
 ValueId Budgets::intern(Value value) {
-    const auto hash = [](const Value& of) { return mix((std::uint64_t{of.inner} << 32) | of.law); };
-    if (const auto known = table_.find(hash(value), [&](ValueId id) { return values_[id] == value; })) {
+    const std::uint64_t hash = mix((std::uint64_t{value.inner} << 32) | value.law);
+    if (const auto known = table_.find(hash, [&](ValueId id) { return values_[id] == value; })) {
         return *known;
     }
     const auto id = static_cast<ValueId>(values_.size());
     values_.push_back(value);
-    table_.add(hash(value), id, [&](ValueId other) { return hash(values_[other]); });
+    table_.add(hash, id);
     return id;
 }
 

@@ -59,7 +59,7 @@ LawId LawTable::sum(LawId one, LawId other, Limits& limits) {
     const LawId sum = intern();
     const auto id = static_cast<std::uint32_t>(sums_.size());
     sums_.push_back({one, other, sum});
-    sum_table_.add(hash, id, [this](std::uint32_t at) { return hash_pair(sums_[at].one, sums_[at].other); });
+    sum_table_.add(hash, id);
     return sum;
 }
 
@@ -199,7 +199,7 @@ LawId LawTable::intern() {
     }
     const auto id = static_cast<LawId>(laws_.size());
     laws_.push_back({at, probability, above, excess, is_whole_});
-    table_.add(hash, id, [this](LawId law) { return hash_of(laws_[law].at, laws_[law].probability); });
+    table_.add(hash, id);
     return id;
 }
 

@@ -14,7 +14,7 @@ ValueId PriceSums::intern(Cost sum) {
     }
     const auto id = static_cast<ValueId>(sums_.size());
     sums_.push_back(sum);
-    table_.add(hash, id, [this](ValueId other) { return mix(static_cast<std::uint64_t>(sums_[other])); });
+    table_.add(hash, id);
     return id;
 }
 

@@ -183,7 +183,7 @@ ValueId ScenarioLaws::intern() {
     const std::span<LawId> row = ids_.allocate(row_.size());
     std::ranges::copy(row_, row.begin());
     rows_.push_back(row.data());
-    table_.add(hash, id, [this](ValueId other) { return hash_of(laws(other)); });
+    table_.add(hash, id);
     return id;
 }
 

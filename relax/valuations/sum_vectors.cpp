@@ -39,7 +39,7 @@ ValueId SumVectors::intern() {
     const std::span<Cost> row = costs_.allocate(sums_.size());
     std::ranges::copy(sums_, row.begin());
     rows_.push_back(row.data());
-    table_.add(hash, id, [this](ValueId other) { return hash_of((*this)[other]); });
+    table_.add(hash, id);
     return id;
 }
 

@@ -1,15 +1,16 @@
 """Measure how well time limits, memory limits, Ctrl-C and SIGTERM hold, over folders of problems.
 
 Usage: python -m tests.benchmarks.limits [--root DIR ...] [--case DOMAIN PROBLEM ...] [--seconds S] [--memory-limit MB]
-           [--arguments "--search greedy"] [--signals] [--only TEXT] [--every N] [--output FILE.csv]
-           [--markdown FILE.md] [--resume] [--jobs N]
+           [--arguments "--search greedy"] [--signals] [--only TEXT] [--every N] [--offset K]
+           [--output FILE.csv] [--markdown FILE.md] [--resume] [--jobs N]
 
 Every problem is planned for in a process of its own with a limit of --seconds; with --signals it is planned for again
 twice without that limit, and gets SIGINT and SIGTERM after as many seconds. A line of CSV has: the longest stretch of
 the process's own time (CPU) between two looks at the limits, and between which looks that was; the CPU time that the
 run took after its limit or its signal (empty where it had ended before); its peak of memory. See `limits_case` for how.
 Prints how many are over the marks (0.3 s; 10 % more memory than allowed), and the worst ten of each. --every N takes
-every N-th problem only. The figures do not depend much on what else the machine does, but for the 10 ms of sampling.
+every N-th problem only, beginning with the first, or after --offset K others. The figures do not depend much on what
+else the machine does, but for the 10 ms of sampling.
 """
 
 from __future__ import annotations
@@ -111,7 +112,8 @@ def cases(options: argparse.Namespace) -> dict[str, Callable[[], Row]]:
     """Return what is to be run, by the names of the rows."""
     instances = [one for root in options.root for one in find_instances(root)]
     instances += [Instance(Path(d).parent.name, Path(p).stem, d, p) for d, p in options.case]
-    instances = [one for one in instances if options.only in f"{one.domain} {one.problem}"][:: options.every]
+    instances = [one for one in instances if options.only in f"{one.domain} {one.problem}"]
+    instances = instances[options.offset :: options.every]
     more = tuple(shlex.split(options.arguments))
     found: dict[str, Callable[[], Row]] = {}
     for one in instances:
@@ -132,6 +134,7 @@ def main() -> None:
     parser.add_argument("--signals", action="store_true", help="send SIGINT and SIGTERM, in runs of their own, too")
     parser.add_argument("--only", default="", help="only problems whose domain and name contain this text")
     parser.add_argument("--every", type=int, default=1, help="take every so many-th problem only")
+    parser.add_argument("--offset", type=int, default=0, help="leave out so many problems at the beginning")
     parser.add_argument("--markdown", type=Path, help="write the report there as Markdown")
     add_measuring(parser)
     options = parser.parse_args()

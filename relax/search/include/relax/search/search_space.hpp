@@ -46,7 +46,7 @@ public:
         assert(!find(state, network));
         const auto id = static_cast<NodeId>(nodes_.size());
         nodes_.push_back({0, 0, state, network, id, 0, SearchNode::kExecuted, 0, false, false, false});
-        table_.add(hash(state, networks_.form(network)), id, [this](NodeId other) { return hash(other); });
+        table_.add(hash(state, networks_.form(network)), id);
         return id;
     }
 
