@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from statehtn.found_plan import PricedStep
     from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
     from statehtn.hddl.plan_format import read_plan, write_plan
+    from statehtn.inspection import Finding, check
     from statehtn.interop import (
         cost_distributions,
         from_unified_planning,
@@ -89,6 +90,7 @@ __all__ = [
     "EntropicValueAtRisk",
     "Exponential",
     "Exponentials",
+    "Finding",
     "Frontier",
     "HddlWarning",
     "InputError",
@@ -124,6 +126,7 @@ __all__ = [
     "alpha_of",
     "attitude_map",
     "chance",
+    "check",
     "compare_attitudes",
     "cost_distributions",
     "equal",
@@ -166,6 +169,7 @@ _MODULES_FOR_LATER = {
     "found_plan": ("PricedStep",),
     "hddl": ("HddlWarning", "read_hddl", "read_hddl_text", "write_hddl"),
     "hddl.plan_format": ("read_plan", "write_plan"),
+    "inspection": ("Finding", "check"),
     "interop": (
         "cost_distributions",
         "from_unified_planning",

@@ -12,6 +12,7 @@ class ExitCode(IntEnum):
 
     SUCCESS = 0
     INVALID_PLAN = 1
+    FINDINGS = 1  # of `check`, which has no plan
     USAGE = 2
     UNSOLVABLE = 10
     GAVE_UP = 12

@@ -46,6 +46,10 @@ def _run(options: argparse.Namespace) -> ExitCode:
             return run_top(options)
         case "validate":
             return run_validate(options)
+        case "check":
+            from statehtn.cli.check_command import run_check
+
+            return run_check(options)
         case "compare-attitudes":
             from statehtn.cli.attitudes_command import run_compare_attitudes
 

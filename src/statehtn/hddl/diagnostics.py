@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from statehtn.counted import counted
-from statehtn.errors import InputError, UnsupportedError
+from statehtn.errors import InputError, StateHtnError, UnsupportedError
 from statehtn.hddl.expressions import Node
 from statehtn.hddl.tokens import Source, concise, shortened
 from statehtn.log import warn
@@ -20,11 +21,23 @@ MAX_WARNINGS = 100
 
 
 class Diagnostics:
-    """Collects the warnings of one run of the reader, or raises them in strict mode."""
+    """Collects the warnings of one run of the reader, or raises them in strict mode.
 
-    def __init__(self, strict: bool) -> None:
+    Args:
+        strict: raise warnings as errors.
+        goes_on: collect the errors of actions and methods, too, and leave these out, instead of ending at the first.
+
+    Attributes:
+        found: the warnings.
+        errors: what was refused, where the reader goes on.
+        omitted: how many warnings there were beyond `MAX_WARNINGS`.
+    """
+
+    def __init__(self, strict: bool, goes_on: bool = False) -> None:
         self.strict = strict
-        self.found: list[str] = []
+        self.goes_on = goes_on
+        self.found: list[InputError] = []
+        self.errors: list[StateHtnError] = []
         self.omitted = 0
 
     def warn(self, message: str, source: Source, index: int) -> None:
@@ -39,12 +52,12 @@ class Diagnostics:
         error = source.error(message, index)
         if self.strict:
             raise error
-        self.found.append(str(error))
+        self.found.append(error)
 
     def emit(self, stacklevel: int) -> None:
         """Hand the warnings to Python, as if they came from the caller `stacklevel` frames up."""
-        for message in self.found:
-            warn(HddlWarning(message), stacklevel + 1)
+        for error in self.found:
+            warn(HddlWarning(str(error)), stacklevel + 1)
         if self.omitted:
             are = "is" if self.omitted == 1 else "are"
             warn(HddlWarning(f"{counted(self.omitted, 'more warning')} {are} left out"), stacklevel + 1)
@@ -62,6 +75,16 @@ class Reporter:
         for index in self.source.glued:
             variable = shortened(self.source.tokens[index])
             self.diagnostics.warn(f"expected a space before '{variable}'", self.source, index)
+
+    @contextmanager
+    def leaving_out(self) -> Iterator[None]:
+        """Leave out a part of the file that is wrong, and note its error, if the reader is to go on."""
+        try:
+            yield
+        except StateHtnError as error:
+            if not self.diagnostics.goes_on:
+                raise
+            self.diagnostics.errors.append(error)
 
     def error(self, message: str, at: Node) -> InputError:
         """Return an error for the caller to raise."""

@@ -77,7 +77,10 @@ class DomainReader:
         """
         vocabulary = self.vocabulary
         vocabulary.lent = problem_objects
-        actions = {signature.name: self._action(signature, fields) for signature, fields in self._actions}
+        actions: dict[str, Action] = {}
+        for signature, fields in self._actions:
+            with self.reporter.leaving_out():
+                actions[signature.name] = self._action(signature, fields)
         methods = self._methods()
         vocabulary.lent = {}
         return Domain(
@@ -198,10 +201,11 @@ class DomainReader:
     def _methods(self) -> dict[str, Method]:
         methods: dict[str, Method] = {}
         for section in self._groups(":method"):
-            name_node = section.items[1] if len(section.items) > 1 else None
-            word = new_name(name_node, "method", section, self.reporter)
-            self._claim(word, "method", "a method")
-            methods[word.text] = self._method(word.text, section)
+            with self.reporter.leaving_out():
+                name_node = section.items[1] if len(section.items) > 1 else None
+                word = new_name(name_node, "method", section, self.reporter)
+                self._claim(word, "method", "a method")
+                methods[word.text] = self._method(word.text, section)
         return methods
 
     def _method(self, name: str, section: Group) -> Method:

@@ -19,6 +19,8 @@ Scope = Mapping[str, Parameter]
 """The variables that may be used, by their names in lower case."""
 Kind = Literal["type", "object", "predicate", "function", "task", "method"]
 """Names of one kind must differ by more than case; constants are objects, and actions are tasks."""
+ANY_TYPE = "any type"
+"""The type, below all others, of objects that some problem is taken to declare; no name that is read has a space."""
 
 
 class Vocabulary:
@@ -31,6 +33,8 @@ class Vocabulary:
         objects: the types of the constants and of the problem's objects.
         lent: while the domain is read, the problem's objects: the domain should declare what it names, but may leave
             that to the problem.
+        assumes_objects: whether an object that nobody declares is taken as one that some problem declares, of whatever
+            type is needed, with a warning: where a domain is read without a problem.
         hidden: the predicates of which the problem's initial state decides facts by chance.
     """
 
@@ -40,6 +44,7 @@ class Vocabulary:
         self.constants: dict[str, str] = {}
         self.objects: dict[str, str] = {}
         self.lent: dict[str, str] = {}
+        self.assumes_objects = False
         self.predicates: dict[str, Signature] = {}
         self.hidden: set[str] = set()
         self.functions: dict[str, Signature] = {}
@@ -159,16 +164,28 @@ class Vocabulary:
         if node.text.startswith("?"):
             variable = scope.get(node.lower)
             if variable is None:
-                known = (parameter.name for parameter in scope.values())
-                raise reporter.error(unknown("variable", node.text, known), node)
+                variables = (parameter.name for parameter in scope.values())
+                raise reporter.error(unknown("variable", node.text, variables), node)
             return variable.name
         name = self.spelling("object", node.text)
         if name is None:
-            known = (name for name in self.objects if name not in self.lent)
-            raise reporter.error(unknown("object", node.text, known), node)
+            known = [name for name in self.objects if name not in self.lent]
+            if not self.assumes_objects:
+                raise reporter.error(unknown("object", node.text, known), node)
+            reporter.warn(f"{unknown('object', node.text, known)}; the domain declares no such constant", node)
+            return self._assumed(node.text)
         if name in self.lent:
             reporter.warn(f"'{shortened(name)}' is an object of the problem, not a constant of the domain", node)
             self.constants[name] = self.lent.pop(name)
+        return name
+
+    def _assumed(self, name: str) -> str:
+        """Declare an object that is of all types."""
+        self._parents.setdefault(ANY_TYPE, tuple(self._parents))
+        self.declare("object", (name,))
+        self.objects[name] = self.constants[name] = ANY_TYPE
+        self._supertypes.clear()
+        self._overlaps.clear()
         return name
 
     def terms(

@@ -1,0 +1,43 @@
+"""Costs that are missing: of an action among actions with costs, and values of functions that a cost needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from statehtn.inspection.finding import Finding, Level
+from statehtn.inspection.names import functions_in
+from statehtn.inspection.subject import Subject
+
+
+def check_costs(subject: Subject) -> Iterator[Finding]:
+    """Yield the actions without a cost where others have one, and the functions that a problem gives no value."""
+    actions = subject.domain.actions.values()
+    priced = [action for action in actions if action.costs]
+    for action in actions if priced else ():
+        if not action.costs:
+            message = f"action '{action.name}' has no cost, and others do ('{priced[0].name}', say): it costs 0"
+            advice = "add (increase (total-cost) ...) to its effect; (increase (total-cost) 0) if it costs nothing"
+            place = subject.places.declared("task", action.name)
+            yield Finding(Level.WARNING, place, message, advice, "no-cost", ("action", action.name))
+    if subject.problem is not None:
+        yield from _without_values(subject)
+
+
+def _without_values(subject: Subject) -> Iterator[Finding]:
+    """Yield the functions of costs of which the problem gives no value at all; of others grounding tells."""
+    assert subject.problem is not None
+    given = {key[0] for key in subject.problem.function_values}
+    users = {
+        name: action.name
+        for action in subject.domain.actions.values()
+        for block in action.costs
+        for branch in block.branches
+        for part in branch
+        for name in functions_in(part)
+    }
+    for name, user in users.items():
+        if name not in given:
+            message = f"':init' gives no value of function '{name}', which the cost of action '{user}' needs"
+            place = subject.places.declared("function", name)
+            advice = f"write (= ({name} ...) <number>) in ':init' for the objects that need it"
+            yield Finding(Level.NOTE, place, message, advice, "no-value", ("function", name))
