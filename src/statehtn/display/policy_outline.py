@@ -1,0 +1,238 @@
+"""The outline of a policy: its actions and what they may lead to, where equal ways to go on are one."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from statehtn.display.policy_words import Changes, budget, conditions, cost_text
+from statehtn.model.plan import Step
+from statehtn.model.policy_graph import Branch, End, PolicyGraph
+from statehtn.policies.components import components
+
+MOST_NODES = 50_000
+"""Of a policy that is outlined; larger ones are not to be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """What may come of an action.
+
+    Args:
+        condition: how it is told from the others; empty where there is no other.
+        probability: of it, where what was spent does not matter; None where it depends on that.
+        place: the index of the way to go on.
+    """
+
+    condition: str
+    probability: float | None
+    place: int
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A way to go on: an action and what may come of it, or an end.
+
+    Args:
+        step: the action; None at an end.
+        cost: what it costs, in words.
+        end: why a run is over here; None where it goes on.
+        choices: what may come of the action.
+    """
+
+    step: Step | None
+    cost: str
+    end: End | None
+    choices: tuple[Choice, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """The ways to go on; the first is where runs begin."""
+
+    places: tuple[Place, ...]
+
+    def shared(self) -> dict[int, str]:
+        """Return names of the places that several choices lead to, but for ends: A, B, .., in the order of reading."""
+        known: dict[int, int] = {0: 0}
+        order: list[int] = []
+        pending = [0]
+        visited: set[int] = set()
+        while pending:
+            place = pending.pop()
+            if place in visited:
+                continue
+            visited.add(place)
+            order.append(place)
+            for choice in reversed(self.places[place].choices):
+                known[choice.place] = known.get(choice.place, 0) + 1
+                pending.append(choice.place)
+        named = (p for p in order if self.places[p].end is None and known[p] > (1 if p else 0))
+        return {place: _letters(index) for index, place in enumerate(named)}
+
+
+def outline(graph: PolicyGraph) -> Outline:
+    """Return the outline of a policy: what stands for decompositions and preconditions alone is left out."""
+    return _Outliner(graph).outline()
+
+
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """A branch of an action, and the next action or end after it."""
+
+    branch: Branch
+    target: int
+    spent: float | None
+
+
+class _Outliner:
+    def __init__(self, graph: PolicyGraph) -> None:
+        self.graph = graph
+        self.begin = graph.nodes[0].left
+        self.ways: dict[int, list[_Way]] = {}
+        self.start = self._next(0)
+        pending = [self.start]
+        while pending:
+            node = pending.pop()
+            if node in self.ways:
+                continue
+            decision = graph.nodes[node].decision
+            branches = () if decision is None else decision.branches
+            self.ways[node] = [_Way(b, self._next(b.successor), self._spent(b.successor)) for b in branches]
+            pending += [way.target for way in self.ways[node]]
+
+    def outline(self) -> Outline:
+        """Return equal nodes as one place each."""
+        classes = self._classes(by_cost=False)
+        if not self._has_thresholds(classes):
+            classes = self._classes(by_cost=True)
+        members: dict[int, list[int]] = {}
+        for node, name in classes.items():
+            members.setdefault(name, []).append(node)
+        first = classes[self.start]
+        places = {name: place for place, name in enumerate([first, *(name for name in members if name != first)])}
+        return Outline(tuple(self._place(members[name], classes, places) for name in places))
+
+    def _next(self, node: int) -> int:
+        """Return the next node at which an action of the domain is executed, or a run ends."""
+        passed: set[int] = set()
+        while (decision := self.graph.nodes[node].decision) is not None and decision.action is None:
+            if node in passed or len(decision.branches) != 1:
+                break
+            passed.add(node)
+            node = decision.branches[0].successor
+        return node
+
+    def _spent(self, node: int) -> float | None:
+        left = self.graph.nodes[node].left
+        return None if left is None or self.begin is None else self.begin - left
+
+    def _classes(self, by_cost: bool) -> dict[int, int]:
+        """Return a number for each node: equal where the same actions follow, on the same conditions.
+
+        Nodes that lead to each other are told apart until nothing changes; others follow from what they lead to.
+
+        Args:
+            by_cost: whether what a branch costs is a part of its condition.
+        """
+        nodes = list(self.ways)
+        index = {node: place for place, node in enumerate(nodes)}
+        found: dict[int, int] = {}
+        numbers: dict[object, int] = {}
+        order = components(len(nodes), lambda place: (index[way.target] for way in self.ways[nodes[place]]))
+        for number_of_component, component in enumerate(order):
+            group = [nodes[place] for place in component]
+            found.update(dict.fromkeys(group, -1))
+            count = 0
+            while True:
+                keys = {node: self._key(node, found, by_cost) for node in group}
+                if len(set(keys.values())) == count or len(group) == 1:
+                    break
+                count = len(set(keys.values()))
+                local = {key: -1 - place for place, key in enumerate(dict.fromkeys(keys.values()))}
+                found.update({node: local[key] for node, key in keys.items()})
+            is_loop = len(group) > 1 or any(way.target == group[0] for way in self.ways[group[0]])
+            for node, key in keys.items():
+                whole = (number_of_component, key) if is_loop else key  # a loop's keys speak of classes of its own
+                found[node] = numbers.setdefault(whole, len(numbers))
+        return found
+
+    def _key(self, node: int, classes: dict[int, int], by_cost: bool) -> object:
+        """Return what tells a node from others, as far as classes of its successors are known."""
+        here = self.graph.nodes[node]
+        step = None if here.decision is None else here.decision.action
+        outcomes: dict[Changes, tuple[float, float]] = {}
+        for way in self.ways[node]:
+            branch = way.branch
+            p, cost = outcomes.get((branch.added, branch.deleted), (0.0, 0.0))
+            outcomes[branch.added, branch.deleted] = p + branch.probability, cost + branch.probability * branch.law.mean
+        prices = frozenset((changes, f"{p:.9g}", f"{cost:.9g}") for changes, (p, cost) in outcomes.items())
+        leads = frozenset(
+            (way.branch.added, way.branch.deleted, str(way.branch.law) if by_cost else "", classes[way.target])
+            for way in self.ways[node]
+        )
+        return step, here.end, prices, leads
+
+    def _has_thresholds(self, classes: dict[int, int]) -> bool:
+        """Tell whether amounts spent tell the ways apart at each class: those of one lie below those of the next."""
+        spent: dict[tuple[int, Changes], dict[int, list[float]]] = {}
+        for node, ways in self.ways.items():
+            for way in ways:
+                key = classes[node], (way.branch.added, way.branch.deleted)
+                if way.spent is not None:
+                    spent.setdefault(key, {}).setdefault(classes[way.target], []).append(way.spent)
+        return all(_are_apart(groups.values()) for groups in spent.values())
+
+    def _place(self, members: Sequence[int], classes: dict[int, int], places: dict[int, int]) -> Place:
+        node = self.graph.nodes[members[0]]
+        step = None if node.decision is None else node.decision.action
+        outcomes: dict[Changes, dict[int, list[_Way]]] = {}
+        for member in members:
+            for way in self.ways[member]:
+                changes = way.branch.added, way.branch.deleted
+                outcomes.setdefault(changes, {}).setdefault(classes[way.target], []).append(way)
+        is_one = len({classes[way.target] for ways in outcomes.values() for some in ways.values() for way in some}) == 1
+        texts = conditions(list(outcomes))
+        choices: list[Choice] = []
+        for changes, groups in outcomes.items():
+            ordered = sorted(groups.items(), key=lambda group: min(way.spent or 0.0 for way in group[1]))
+            limits = [max(way.spent or 0.0 for way in ways) for _, ways in ordered]
+            for rank, (name, ways) in enumerate(ordered):
+                amount = budget(rank, limits) if len(ordered) > 1 else ""
+                condition = ", ".join(part for part in (texts[changes], amount) if part)
+                own = [way for way in ways if way in self.ways[members[0]]]
+                probability = math.fsum(way.branch.probability for way in own)
+                is_fixed = len(members) == 1 or len(ordered) == 1
+                choices.append(Choice("" if is_one else condition, probability if is_fixed else None, places[name]))
+        merged = _merged(choices)
+        return Place(step, cost_text([way.branch for way in self.ways[members[0]]]), node.end, merged)
+
+
+def _are_apart(groups: Iterable[Sequence[float]]) -> bool:
+    ranges = sorted((min(amounts), max(amounts)) for amounts in groups)
+    return all(high < low for (_, high), (low, _) in itertools.pairwise(ranges))
+
+
+def _merged(choices: Sequence[Choice]) -> tuple[Choice, ...]:
+    """Return choices that lead to one place as one, in the order of the places' first choices."""
+    groups: dict[int, list[Choice]] = {}
+    for choice in choices:
+        groups.setdefault(choice.place, []).append(choice)
+    found = []
+    for place, some in groups.items():
+        known = [choice.probability for choice in some if choice.probability is not None]
+        probability = math.fsum(known) if len(known) == len(some) else None
+        found.append(Choice(" or ".join(dict.fromkeys(c.condition for c in some)), probability, place))
+    return tuple(found)
+
+
+def _letters(index: int) -> str:
+    """Return A, B, .., Z, AA, AB, .."""
+    text = ""
+    index += 1
+    while index:
+        index, rest = divmod(index - 1, 26)
+        text = chr(ord("A") + rest) + text
+    return text

@@ -1,0 +1,252 @@
+"""What runs of a policy are worth: sums over all of them, as solutions of linear equations.
+
+Nothing here is shared with the search. A node's value follows from those of its successors; nodes that lead to each
+other are solved together, after all that they lead to.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from statehtn.errors import UsageError
+from statehtn.model.cost.law import CostLaw
+from statehtn.model.policy_graph import End, FlatPolicy
+from statehtn.policies.components import components
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+    Vector = NDArray[float64]
+
+MOST_DENSE = 400
+"""Nodes that lead to each other: beyond, their equations are solved as sparse ones."""
+ROUNDING = 1e-9
+"""Of solutions relative to their largest: what is less than nothing by more than that has no meaning."""
+
+
+class Chain:
+    """The Markov chain of a policy's runs.
+
+    Args:
+        flat: the policy.
+    """
+
+    def __init__(self, flat: FlatPolicy) -> None:
+        self.flat = flat
+
+    @cached_property
+    def order(self) -> list[list[int]]:
+        """Nodes that lead to each other together, each such component after all that it leads to."""
+        flat = self.flat
+        return components(len(flat), lambda node: (flat.successors[branch] for branch in flat.branches(node)))
+
+    def loops(self, component: Sequence[int]) -> bool:
+        """Tell whether a run can come back to a component's nodes."""
+        node = component[0]
+        return len(component) > 1 or any(self.flat.successors[branch] == node for branch in self.flat.branches(node))
+
+    @cached_property
+    def endless(self) -> bytearray:
+        """For each node whether runs from it never end: all that it leads to is a loop without a way out."""
+        flat = self.flat
+        found = bytearray(len(flat))
+        for component in self.order:
+            inside = set(component)
+            leaves = any(
+                flat.ends[node] is not None
+                or any(
+                    (other := flat.successors[branch]) not in inside and not found[other]
+                    for branch in flat.branches(node)
+                )
+                for node in component
+            )
+            for node in component if not leaves else ():
+                found[node] = True
+        return found
+
+    def success_probability(self) -> float:
+        """Return the probability that a run comes to its end: that it is done."""
+        flat = self.flat
+        values = [1.0 if end is End.DONE else 0.0 for end in flat.ends]
+        nothing = [0.0] * len(flat)
+        self._solve(values, flat.probabilities, nothing, 0.0)
+        return min(1.0, max(0.0, values[0]))
+
+    def mean(self, failure: float) -> float:
+        """Return the expected cost of a run, where one that fails pays something on top of what it has spent.
+
+        Args:
+            failure: what it pays; may be infinite.
+        """
+        flat = self.flat
+        means = _by_law(flat.laws, lambda law: law.mean)
+        constants = [
+            math.fsum(flat.probabilities[branch] * means[branch] for branch in flat.branches(node))
+            for node in range(len(flat))
+        ]
+        values = self._end_values(failure)
+        self._solve(values, flat.probabilities, constants, failure)
+        return values[0]
+
+    def exponential_mean(self, slope: float, failure: float) -> float:
+        """Return `ln E[e^(slope C)] / slope` of the cost C of a run; infinite where the expectation is.
+
+        Args:
+            slope: not 0, per unit of cost.
+            failure: what a run that fails pays on top of what it has spent; may be infinite.
+        """
+        flat = self.flat
+        means = _by_law(flat.laws, lambda law: law.exponential_mean(slope))
+        weights = [math.log(p) + slope * mean for p, mean in zip(flat.probabilities, means, strict=True)]
+        logs = [slope * value for value in self._end_values(failure)]
+        for component in self.order:
+            if flat.ends[component[0]] is not None:
+                continue
+            if not self.loops(component):
+                node = component[0]
+                logs[node] = _log_sum([weights[b] + logs[flat.successors[b]] for b in flat.branches(node)])
+                continue
+            self._solve_logs(component, logs, weights, slope, failure)
+        return logs[0] / slope + 0.0
+
+    def _end_values(self, failure: float) -> list[float]:
+        return [failure if end in (End.FAILED, End.GIVEN_UP) else 0.0 for end in self.flat.ends]
+
+    def _solve(self, values: list[float], weights: Sequence[float], constants: Sequence[float], failure: float) -> None:
+        """Solve `value = constant + sum of weight * value of the successor`, where values of ends are given.
+
+        A loop that is never left is a failed run: its value is infinite where its constants are not 0.
+        """
+        flat = self.flat
+        for component in self.order:
+            if flat.ends[component[0]] is not None:
+                continue
+            if not self.loops(component):
+                node = component[0]
+                products = [weights[b] * values[flat.successors[b]] for b in flat.branches(node)]
+                values[node] = math.fsum((constants[node], *products)) if math.inf not in products else math.inf
+                continue
+            if self.endless[component[0]]:
+                is_free = not any(constants[node] for node in component)
+                for node in component:
+                    values[node] = failure if is_free else math.inf
+                continue
+            matrix, added = self._equations(component, values, weights, constants)
+            if any(map(math.isinf, added)):
+                solved = [math.inf] * len(component)
+            else:
+                solved = solution(matrix, added, len(component))
+            for node, value in zip(component, solved, strict=True):
+                values[node] = value
+
+    def _solve_logs(
+        self, component: Sequence[int], logs: list[float], weights: Sequence[float], slope: float, failure: float
+    ) -> None:
+        """Solve the equations of a component for logarithms, scaled by what leads out of it.
+
+        For weights of a component that are not negative, a solution without negative numbers exists only if their
+        spectral radius is below 1 (Perron and Frobenius): otherwise the expectation is infinite.
+        """
+        flat = self.flat
+        inside = set(component)
+        out = {
+            node: [weights[b] + logs[other] for b in flat.branches(node) if (other := flat.successors[b]) not in inside]
+            for node in component
+        }
+        scale = max((log for some in out.values() for log in some), default=-math.inf)
+        if self.endless[component[0]]:
+            is_free = all(flat.laws[b].most == 0 for node in component for b in flat.branches(node))
+            scale = slope * failure if is_free else math.copysign(math.inf, slope)
+        if math.isinf(scale) or self.endless[component[0]]:
+            for node in component:
+                logs[node] = scale
+            return
+        shares = {node: math.fsum(math.exp(log - scale) for log in some) for node, some in out.items()}
+        factors = {b: weights[b] for node in component for b in flat.branches(node) if flat.successors[b] in inside}
+        solved = None
+        if max(factors.values()) < math.log(1e300):
+            row = {node: place for place, node in enumerate(component)}
+            matrix = [
+                (row[node], row[flat.successors[b]], math.exp(factors[b]))
+                for node in component
+                for b in flat.branches(node)
+                if b in factors
+            ]
+            solved = solution(matrix, [shares[node] for node in component], len(component))
+            if not all(math.isfinite(u) for u in solved) or min(solved) < -ROUNDING * max(map(abs, solved)):
+                solved = None
+        for place, node in enumerate(component):
+            if solved is None:
+                logs[node] = math.inf
+            else:
+                logs[node] = scale + (math.log(solved[place]) if solved[place] > 0 else -math.inf)
+
+    def _equations(
+        self, component: Sequence[int], values: Sequence[float], weights: Sequence[float], constants: Sequence[float]
+    ) -> tuple[list[tuple[int, int, float]], list[float]]:
+        """Return the weights between a component's nodes, by row and column, and what the rest adds to each."""
+        flat = self.flat
+        row = {node: place for place, node in enumerate(component)}
+        matrix: list[tuple[int, int, float]] = []
+        added: list[float] = []
+        for node in component:
+            parts = [constants[node]]
+            for branch in flat.branches(node):
+                other = flat.successors[branch]
+                if other in row:
+                    matrix.append((row[node], row[other], weights[branch]))
+                else:
+                    parts.append(weights[branch] * values[other])
+            added.append(math.inf if math.inf in parts else math.fsum(parts))
+        return matrix, added
+
+
+def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], count: int) -> list[float]:
+    """Return x of `x = M x + b`; infinite numbers where there is no single one.
+
+    Raises:
+        UsageError: there are many equations, and scipy is not installed.
+    """
+    import numpy
+
+    if count <= MOST_DENSE:
+        dense = numpy.eye(count)
+        for i, j, weight in matrix:
+            dense[i, j] -= weight
+        try:
+            found: Vector = numpy.linalg.solve(dense, numpy.array(added))
+        except numpy.linalg.LinAlgError:
+            return [math.inf] * count
+        return [float(value) for value in found]
+    try:
+        from scipy.sparse import csr_matrix, identity
+        from scipy.sparse.linalg import spsolve
+    except ImportError:
+        raise UsageError(
+            f"the value of a policy that loops through {count} states needs the package 'scipy': "
+            "pip install 'statehtn[scipy]'"
+        ) from None
+    rows, columns, weights = zip(*matrix, strict=True)
+    sparse = identity(count, format="csr") - csr_matrix((weights, (rows, columns)), shape=(count, count))
+    return [float(value) for value in spsolve(sparse.tocsc(), numpy.array(added))]
+
+
+def _by_law(laws: Sequence[CostLaw], price: Callable[[CostLaw], float]) -> list[float]:
+    """Return a number for each branch's law; few laws are many branches'."""
+    known: dict[int, float] = {}
+    for law in laws:
+        if id(law) not in known:
+            known[id(law)] = price(law)
+    return [known[id(law)] for law in laws]
+
+
+def _log_sum(logs: Sequence[float]) -> float:
+    """Return the logarithm of the sum of `e^x`."""
+    largest = max(logs)
+    if math.isinf(largest):
+        return largest
+    return largest + math.log(math.fsum(math.exp(log - largest) for log in logs))

@@ -1,0 +1,106 @@
+"""Policies as trees to read: what is told of outcomes and amounts, and what is told once."""
+
+from __future__ import annotations
+
+from statehtn.display.policy_tree import policy_html, policy_text
+from statehtn.model import CostDistribution, Step
+from statehtn.model.policy_graph import Branch, Decision, End, PolicyGraph, PolicyNode
+from tests.made_policies import certain, ferry_or_bridge, retry, tries
+
+
+def test_a_loop_has_a_letter() -> None:
+    assert policy_text(retry()).splitlines() == [
+        "A: (try cup)  cost 1",
+        "  if (held cup), 0.5:",
+        "    (carry cup)  cost 3",
+        "    done",
+        "  if nothing changes, 0.5: go on at A",
+    ]
+
+
+def test_what_fails_is_said() -> None:
+    assert policy_text(tries(2)).splitlines() == [
+        "(try cup)  cost 1",
+        "  if (held cup), 0.5: done",
+        "  if nothing changes, 0.5:",
+        "    (try cup)  cost 1",
+        "      if (held cup), 0.5: done",
+        "      if nothing changes, 0.5: failed: nothing is left to try",
+    ]
+
+
+def test_amounts_are_told() -> None:
+    assert policy_text(ferry_or_bridge()).splitlines() == [
+        "(drive)  cost 4 to 10",
+        "  if at most 4 is spent, 0.75:",
+        "    (bridge)  cost 2 w.p. 0.5, 9 w.p. 0.5",
+        "    done",
+        "  if more than 4 is spent, 0.25:",
+        "    (ferry)  cost 5",
+        "    done",
+    ]
+
+
+def test_amounts_that_change_nothing_are_not_told() -> None:
+    """What follows is the same whatever was spent, so that there is one way to go on."""
+    go, rest = Step("go"), Step("rest")
+    nodes = [
+        PolicyNode(
+            frozenset(),
+            (go, rest),
+            (),
+            Decision(0, go, (Branch(0.5, certain(1), 1), Branch(0.5, certain(2), 2))),
+            left=9.0,
+        ),
+        PolicyNode(frozenset(), (rest,), (), Decision(0, rest, (Branch(1.0, certain(1), 3),)), left=8.0),
+        PolicyNode(frozenset(), (rest,), (), Decision(0, rest, (Branch(1.0, certain(1), 4),)), left=7.0),
+        PolicyNode(frozenset(), (), (), None, End.DONE, left=7.0),
+        PolicyNode(frozenset(), (), (), None, End.DONE, left=6.0),
+    ]
+    assert policy_text(PolicyGraph.of(nodes)).splitlines() == ["(go)  cost 1 to 2", "(rest)  cost 1", "done"]
+
+
+def test_decompositions_and_preconditions_are_left_out() -> None:
+    solve, go = Step("solve"), Step("go")
+    law = CostDistribution.certain(0)
+    nodes = [
+        PolicyNode(frozenset(), (solve,), (), Decision(0, solve, (Branch(1.0, law, 1),), "by-going")),
+        PolicyNode(frozenset(), (go,), (), Decision(0, None, (Branch(1.0, law, 2),))),
+        PolicyNode(frozenset(), (go,), (), Decision(0, go, (Branch(1.0, law, 3),))),
+        PolicyNode(frozenset(), (), (), None, End.DONE),
+    ]
+    assert policy_text(PolicyGraph.of(nodes)).splitlines() == ["(go)", "done"]
+
+
+def test_two_ways_to_one_place_share_it() -> None:
+    lock, jammed, opened = Step("turn-key"), ("jammed", "lock"), ("open", "lock")
+    nodes = [
+        PolicyNode(
+            frozenset(),
+            (lock,),
+            (),
+            Decision(
+                0,
+                lock,
+                (
+                    Branch(0.8, certain(1), 2, frozenset({opened})),
+                    Branch(0.2, certain(1), 1, frozenset({jammed})),
+                ),
+            ),
+        ),
+        PolicyNode(frozenset(), (lock,), (), Decision(0, Step("force"), (Branch(1.0, certain(5), 2),))),
+        PolicyNode(frozenset(), (Step("enter"),), (), Decision(0, Step("enter"), (Branch(1.0, certain(1), 3),))),
+        PolicyNode(frozenset(), (), (), None, End.DONE),
+    ]
+    graph = PolicyGraph.of(nodes)
+    assert policy_text(graph).splitlines() == [
+        "(turn-key)  cost 1",
+        "  if (open lock), 0.8:",
+        "    A: (enter)  cost 1",
+        "    done",
+        "  if (jammed lock), 0.2:",
+        "    (force)  cost 5",
+        "    go on at A",
+    ]
+    assert "<pre" in policy_html(graph)
+    assert "(jammed lock)" in policy_html(graph)
