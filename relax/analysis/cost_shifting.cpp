@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "relax/analysis/cost_cases.hpp"
 #include "relax/base/cost.hpp"
 
 namespace relax {
@@ -70,49 +71,12 @@ private:
     std::uint32_t deepest_ = 0;
 };
 
-// Facts on which a cost part depends, with repetitions.
-void append_facts(const GroundProblem& problem, CostPartId part, std::vector<FactId>& positive,
-                  std::vector<FactId>& negative) {
-    for (const AlternativeId alternative : problem.cost_alternatives[part]) {
-        std::ranges::copy(problem.cost_conditions[alternative], std::back_inserter(positive));
-        std::ranges::copy(problem.cost_negative_conditions[alternative], std::back_inserter(negative));
-    }
-}
-
-// The parts of an action's cost in groups that have no fact in common, each in order: one of several parts is due in
-// every state only if that is so of their parts in one group.
-std::vector<std::vector<CostPartId>> unrelated_groups(const GroundProblem& problem, ActionId action) {
-    std::vector<std::vector<CostPartId>> groups;
-    std::unordered_map<FactId, std::size_t> group_of;
-    std::vector<FactId> facts;
-    for (const CostPartId part : problem.cost_parts[action]) {
-        std::vector<CostPartId> group{part};
-        facts.clear();
-        append_facts(problem, part, facts, facts);
-        for (std::size_t at = 0; at < facts.size(); ++at) {
-            const auto known = group_of.find(facts[at]);
-            if (known == group_of.end() || known->second == groups.size()) {
-                group_of[facts[at]] = groups.size();
-                continue;
-            }
-            for (const CostPartId other : std::exchange(groups[known->second], {})) {
-                group.push_back(other);
-                append_facts(problem, other, facts, facts);
-            }
-            known->second = groups.size();
-        }
-        std::ranges::sort(group);
-        groups.push_back(std::move(group));
-    }
-    return groups;
-}
-
 // Only then can one of the parts be due in every state.
 bool reads_some_fact_both_ways(const GroundProblem& problem, std::span<const CostPartId> parts) {
     std::vector<FactId> positive;
     std::vector<FactId> negative;
     for (const CostPartId part : parts) {
-        append_facts(problem, part, positive, negative);
+        append_cost_facts(problem, part, positive, negative);
     }
     std::ranges::sort(positive);
     return std::ranges::any_of(negative, [&](FactId fact) { return std::ranges::binary_search(positive, fact); });
@@ -162,7 +126,7 @@ Prices shift_costs(const GroundProblem& problem, Prices prices, Limits& limits) 
         if (problem.cost_parts[action].empty()) {
             continue;
         }
-        for (const std::vector<CostPartId>& group : unrelated_groups(problem, action)) {
+        for (const std::vector<CostPartId>& group : unrelated_cost_groups(problem, action)) {
             shift_within(problem, action, group, prices, limits);
         }
     }

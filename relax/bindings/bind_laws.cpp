@@ -154,6 +154,7 @@ void bind_law_valuation(nb::module_& module) {
         .def_rw("least_bound", &LawOptions::least_bound)
         .def_rw("mean_bound", &LawOptions::mean_bound)
         .def_rw("graph_bound", &LawOptions::graph_bound)
+        .def_rw("graph_parts", &LawOptions::graph_parts)
         .def_rw("label_outcomes", &LawOptions::label_outcomes)
         .def_rw("graph_outcomes", &LawOptions::graph_outcomes)
         .def_rw("network_outcomes", &LawOptions::network_outcomes);

@@ -28,7 +28,7 @@ Budgets::Budgets(Valuation& inner, const PricedProblem& least, const CostLaws& c
       budgets_(std::move(budgets)),
       options_(options),
       so_far_(costs, detail_for(budgets_)),
-      to_come_(least, costs, detail_for(budgets_), options.graph_outcomes, options.network_outcomes) {
+      to_come_(least, costs, detail_for(budgets_), options) {
     const auto asked = inner.prices().first(inner.asked());
     const auto known = std::ranges::find(asked, &least);
     own_prices_ = known == asked.end() ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "relax/analysis/tdg_bound.hpp"
+#include "relax/valuations/least_laws.hpp"
 
 namespace relax {
 
@@ -51,15 +52,14 @@ LawId LawsSoFar::extend(LawId law, ActionId action, std::span<const CostPartId> 
 }
 
 LawsToCome::LawsToCome(const PricedProblem& least, const CostLaws& costs, const LawDetail& detail,
-                       std::size_t task_outcomes, std::size_t network_outcomes)
+                       const LawOptions& options)
     : least_(least),
-      table_(detail_of_bounds(detail, outcomes_for(least.problem, task_outcomes))),
-      network_table_(detail_of_bounds(detail, network_outcomes)),
-      actions_(costs.in(table_, costs.actions)) {
+      has_parts_(options.graph_parts),
+      table_(detail_of_bounds(detail, outcomes_for(least.problem, options.graph_outcomes))),
+      network_table_(detail_of_bounds(detail, options.network_outcomes)),
+      actions_(costs.in(table_, costs.actions)),
+      parts_(costs.in(table_, costs.parts)) {
     assert(costs.actions.size() == least.problem.action_count());
-    for (const LawId law : actions_) {
-        means_.push_back(static_cast<Cost>(table_[law].mean() * kUnitsPerStep));
-    }
 }
 
 void LawsToCome::begin(const TaskNetworks& networks, Limits& limits) {
@@ -71,9 +71,14 @@ const Law& LawsToCome::of(NetworkId network, Limits& limits) { return networks_-
 
 const Law& LawsToCome::of_task(TaskId task, Limits& limits) {
     if (!graph_) {
-        const std::vector<Cost> least = tdg_bound(least_.problem, least_.prices.actions, limits);
-        const std::vector<Cost> means = tdg_bound(least_.problem, means_, limits);
-        graph_.emplace(least_.problem, table_, actions_, least, means, limits);
+        const std::vector<LawId> actions =
+            has_parts_ ? least_laws(least_.problem, actions_, parts_, table_, limits) : actions_;
+        std::vector<Cost> means;
+        for (const LawId law : actions) {
+            means.push_back(static_cast<Cost>(table_[law].mean() * kUnitsPerStep));
+        }
+        const std::vector<Cost> task_means = tdg_bound(least_.problem, means, limits);
+        graph_.emplace(least_.problem, table_, actions, least_.task_bounds(limits), task_means, limits);
     }
     return table_[(*graph_)[task]];
 }

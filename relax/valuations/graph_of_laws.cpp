@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "relax/base/cost.hpp"
+#include "relax/valuations/law_bounds.hpp"
 #include "relax/valuations/law_orders.hpp"
 
 namespace relax {
@@ -66,7 +67,7 @@ GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::spa
     }
     for (const TaskId task : problem.compounds()) {
         if (is_known_[task]) {
-            laws_[task] = lifted(laws_[task]);
+            laws_[task] = lifted(table_, laws_[task], kLift);
         }
     }
 }
@@ -84,7 +85,7 @@ bool GraphOfLaws::update(TaskId task, Limits& limits) {
         for (const TaskId subtask : subtasks) {
             sum = table_.sum(sum, laws_[subtask], limits);
         }
-        law = is_known ? highest(law, sum) : sum;
+        law = is_known ? highest_of(table_, law, sum) : sum;
         is_known = true;
     }
     if (!is_known || (is_known_[task] && is_never_more(table_[laws_[task]], table_[law]))) {
@@ -93,58 +94,6 @@ bool GraphOfLaws::update(TaskId task, Limits& limits) {
     is_known_[task] = true;
     laws_[task] = law;
     return true;
-}
-
-// For each cost the higher one of the two probabilities of at most so much.
-LawId GraphOfLaws::highest(LawId one, LawId other) {
-    const Law& left = table_[one];
-    const Law& right = table_[other];
-    if (one == other || is_never_more(left, right)) {
-        return one;
-    }
-    if (is_never_more(right, left)) {
-        return other;
-    }
-    at_.clear();
-    probability_.clear();
-    double above = 1.0;
-    std::size_t i = 0;
-    std::size_t j = 0;
-    while (i < left.size() || j < right.size()) {
-        const double at =
-            j == right.size() || (i < left.size() && left.at[i] <= right.at[j]) ? left.at[i] : right.at[j];
-        i += i < left.size() && left.at[i] == at ? 1 : 0;
-        j += j < right.size() && right.at[j] == at ? 1 : 0;
-        const double lower = std::min(left.above_of(i), right.above_of(j));
-        if (lower < above) {
-            at_.push_back(at);
-            probability_.push_back(above - lower);
-            above = lower;
-        }
-    }
-    return table_.add(at_, probability_);
-}
-
-LawId GraphOfLaws::lifted(LawId id) {
-    const Law& law = table_[id];
-    if (law.size() == 1) {
-        return id;
-    }
-    at_.assign(law.at.begin(), law.at.end());
-    probability_.assign(law.probability.begin(), law.probability.end());
-    double moved = 0.0;
-    while (moved < kLift && at_.size() > 1) {
-        const double taken = std::min(probability_.back(), kLift - moved);
-        moved += taken;
-        if (taken < probability_.back()) {
-            probability_.back() -= taken;
-            break;
-        }
-        at_.pop_back();
-        probability_.pop_back();
-    }
-    probability_.front() += moved;
-    return table_.add(at_, probability_);
 }
 
 const Law& NetworkLaws::of(NetworkId network, Limits& limits) {

@@ -51,7 +51,7 @@ LawValuation::LawValuation(const PricedProblem& least, const PricedProblem& mean
       objective_(std::move(objective)),
       options_(options),
       so_far_(costs, detail_of_labels(*objective_, options_)),
-      to_come_(least, costs, objective_->detail(), options.graph_outcomes, options.network_outcomes) {
+      to_come_(least, costs, objective_->detail(), options) {
     if (options.least_bound && !needs_means()) {
         least_index_ = prices_.size();
         prices_.push_back(&least);

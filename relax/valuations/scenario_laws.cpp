@@ -43,7 +43,7 @@ std::uint64_t hash_of(std::span<const LawId> laws) {
 ScenarioLaws::Scenario::Scenario(const ScenarioCosts& costs, const LawDetail& detail, const LawOptions& options)
     : probability(costs.probability),
       so_far(costs.laws, detail),
-      to_come(*costs.least, costs.laws, detail, options.graph_outcomes, options.network_outcomes),
+      to_come(*costs.least, costs.laws, detail, options),
       sums({.last = std::numeric_limits<double>::infinity(), .is_flat_beyond = false, .most_outcomes = kMostOutcomes}) {
 }
 

@@ -174,6 +174,39 @@ def test_the_graph_of_laws_is_a_bound_that_recursion_does_not_spoil() -> None:
     assert dict(zip(at, below, strict=True)) == pytest.approx({2: 0.25, 3: 0.75, 4: 1.0}, abs=1e-8)
 
 
+CASES = """(define (domain d)
+  (:predicates (icy) (careful))
+  (:task go :parameters ())
+  (:method well-prepared :parameters () :task (go) :ordered-subtasks (and (salt) (relax) (drive)))
+  (:method at-once :parameters () :task (go) :ordered-subtasks (drive))
+  (:action salt :parameters () :effect (not (icy)))
+  (:action relax :parameters () :effect (not (careful)))
+  (:action drive :parameters ()
+    :effect (and (increase (total-cost) 10)
+      (when (and (icy) (careful)) (probabilistic 0.5 (increase (total-cost) 2) 0.5 (increase (total-cost) 6)))
+      (when (and (icy) (not (careful))) (probabilistic 0.75 (increase (total-cost) 4) 0.25 (increase (total-cost) 5)))
+      (when (not (icy)) (increase (total-cost) 4.5))
+      (when (careful) (increase (total-cost) 1)))))"""
+
+
+@pytest.mark.parametrize(
+    ("graph_parts", "law"),
+    [(True, {13: 0.5, 14: 0.75, 14.5: 1.0}), (False, {10: 1.0})],
+    ids=["with all cases", "without"],
+)
+def test_the_graph_of_laws_counts_what_is_due_in_some_way_or_other(graph_parts: bool, law: dict[float, float]) -> None:
+    """Beside 10, `drive` costs 3 or 7, half each; 4 or 5; 4.5; or 5.5, which is more than in the case before."""
+    problem = "(define (problem p) (:domain d) (:init (icy) (careful)) (:htn :subtasks (go)))"
+    grounding = ground(read_hddl_text(CASES, problem))
+    labels = LawLabels(grounding, Deadline(40.0), LabelSwitches(graph_parts=graph_parts), Limits())
+    valuation = labels.valuation
+    assert isinstance(valuation, _relax.LawValuation)
+    at, probabilities = valuation.law_of_task(grounding.handle.initial_task)
+    below = [math.fsum(probabilities[: number + 1]) for number in range(len(at))]
+    costs = [float(labels.grid.grid.step * int(one)) for one in at]
+    assert dict(zip(costs, below, strict=True)) == pytest.approx(law, abs=1e-8)
+
+
 def test_means_are_prices_rounded_down(vehicle: Problem) -> None:
     grid = LawGrid.first(ground(vehicle), Limits())
     assert grid.grid.is_exact

@@ -58,6 +58,8 @@ class LawSwitches:
     """Bound what is to come by its expected cost, if the objective shuns risk."""
     graph_bound: bool = True
     """Bound what is to come by the graph of laws: a law for every task."""
+    graph_parts: bool = True
+    """Count in that graph what the conditional parts of a cost come to in whatever state."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,6 +12,7 @@
 #include "relax/base/limits.hpp"
 #include "relax/networks/task_network.hpp"
 #include "relax/valuations/graph_of_laws.hpp"
+#include "relax/valuations/law_options.hpp"
 #include "relax/valuations/law_table.hpp"
 
 namespace relax {
@@ -49,10 +50,8 @@ private:
 // Lower bounds of the laws of what is still to come, by the graph of laws: it is made once.
 class LawsToCome {
 public:
-    // Laws have so many outcomes at most, those of tasks and those of networks. `least`: the same costs as prices,
-    // of each the least one in steps.
-    LawsToCome(const PricedProblem& least, const CostLaws& costs, const LawDetail& detail, std::size_t task_outcomes,
-               std::size_t network_outcomes);
+    // `least`: the same costs as prices, of each the least one in steps.
+    LawsToCome(const PricedProblem& least, const CostLaws& costs, const LawDetail& detail, const LawOptions& options);
 
     // Both throw Stopped.
     void begin(const TaskNetworks& networks, Limits& limits);
@@ -62,10 +61,11 @@ public:
 
 private:
     const PricedProblem& least_;
-    std::vector<Cost> means_;  // by ActionId, nearly
+    bool has_parts_;
     LawTable table_;
     LawTable network_table_;
-    std::vector<LawId> actions_;  // by ActionId
+    std::vector<LawId> actions_;  // by ActionId: of what is always due
+    std::vector<LawId> parts_;    // by CostPartId
     std::optional<GraphOfLaws> graph_;
     std::optional<NetworkLaws> networks_;
 };

@@ -22,7 +22,7 @@ namespace relax {
 // A bound for all plans, and for agents that look at what has been spent before they decide, too: by induction over the
 // decomposition, the cost of each subtask is stochastically at least G whatever the others cost, sums of such costs are
 // at least the sum of independent ones with laws G, and a law that is for each x at most one of several cdfs is at most
-// their maximum. What an action costs in some states only is left out.
+// their maximum. An action has a law that its cost is stochastically at least in whatever state (see `least_laws`).
 //
 // A task is worked out again when one of its subtasks has changed. Cycles make that end late, or never: after so many
 // times a task is taken to cost its least cost for certain, which bounds everything. Changes of less than 2^-46 are
@@ -40,8 +40,6 @@ public:
 
 private:
     bool update(TaskId task, Limits& limits);
-    LawId highest(LawId one, LawId other);
-    LawId lifted(LawId law);
 
     const GroundProblem& problem_;
     LawTable& table_;

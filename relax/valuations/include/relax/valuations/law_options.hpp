@@ -14,10 +14,11 @@ struct LawOptions {
     bool least_bound = true;
     bool mean_bound = true;  // where the objective is concave
     bool graph_bound = true;
+    bool graph_parts = true;  // what conditional parts of a cost come to in whatever state counts in the graph
     // Of the law of what a way has cost, where the objective is concave: it then is below the true one.
     std::size_t label_outcomes = std::numeric_limits<std::size_t>::max();
-    std::size_t graph_outcomes = 256;    // of each law of the graph at most ...
-    std::size_t network_outcomes = 128;  // ... and of the sums of them
+    std::size_t graph_outcomes = 2048;    // of each law of the graph at most ...
+    std::size_t network_outcomes = 2048;  // ... and of the sums of them
 };
 
 }  // namespace relax
