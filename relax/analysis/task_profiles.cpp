@@ -1,10 +1,16 @@
 #include "relax/analysis/task_profiles.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace relax {
 
 const TaskProfile& TaskProfiles::of(TaskId task, Limits& limits) const {
-    return profiles_[task].get(
-        [&] { return problem_.is_primitive(task) ? of_action(problem_.action_of(task)) : of_compound(task, limits); });
+    return profiles_[task].get([&] {
+        return problem_.is_primitive(task) ? of_action(problem_.action_of(task))
+               : problem_.is_chance(task)  ? of_chance(task, limits)
+                                           : of_compound(task, limits);
+    });
 }
 
 TaskProfile TaskProfiles::of_action(ActionId action) const {
@@ -53,6 +59,28 @@ TaskProfile TaskProfiles::of_action(ActionId action) const {
         if (!is_negated(literal)) {
             result.undoes.erase(literal);  // adding wins over deleting
         }
+    }
+    return result;
+}
+
+// All of its outcomes together.
+TaskProfile TaskProfiles::of_chance(TaskId task, Limits& limits) const {
+    TaskProfile result = of_compound(task, limits);
+    const auto list = [](const std::vector<Literal>& literals, Literals listed, std::vector<Literal>& into) {
+        for (const Literal literal : into) {
+            listed.erase(literal);
+        }
+        std::ranges::copy_if(literals, std::back_inserter(into), [&](Literal literal) {
+            const bool is_new = listed.contains(literal);
+            listed.erase(literal);
+            return is_new;
+        });
+    };
+    for (const MethodId method : problem_.methods_of(task)) {
+        const TaskProfile& outcome = of(task_of(problem_.outcome_action(method)), limits);
+        result.preconditions = outcome.preconditions;
+        list(outcome.read_list, result.reads, result.read_list);
+        list(outcome.made_list, result.makes, result.made_list);
     }
     return result;
 }

@@ -52,9 +52,10 @@ std::pair<std::uint32_t, std::uint32_t> share(const AnalysedProblem& problem, st
 }
 
 using GroundingResult = std::variant<std::unique_ptr<AnalysedProblem>, relax::StopReason,
-                                     std::tuple<std::uint32_t, std::vector<relax::ObjectId>>>;
+                                     std::tuple<std::uint32_t, std::vector<relax::ObjectId>, bool>>;
 
-// Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases.
+// Ground, and return the ground problem, why there is none, or which action (schema, arguments) has too many cases, or,
+// where the last member says so, too many outcomes.
 GroundingResult ground(const relax::LiftedProblem& problem, bool merge_equal, bool replace_single_methods,
                        bool ask_mutexes, std::optional<double> seconds, std::optional<std::size_t> memory_bytes,
                        std::optional<std::uint64_t> steps) {
@@ -71,7 +72,7 @@ GroundingResult ground(const relax::LiftedProblem& problem, bool merge_equal, bo
         return *reason;
     }
     const auto& many = std::get<relax::TooManyCasesOf>(result);
-    return std::tuple(many.action, many.arguments);
+    return std::tuple(many.action, many.arguments, many.is_about_outcomes);
 }
 
 }  // namespace
@@ -96,6 +97,14 @@ void bind_ground_problem(nb::module_& module) {
         .def_ro("initial_state", &GroundProblem::initial_state)
         .def_ro("initial_task", &GroundProblem::initial_task)
         .def_ro("solvable", &GroundProblem::solvable)
+        .def_prop_ro("has_outcomes", &GroundProblem::has_outcomes)
+        .def("is_chance",
+             [](const AnalysedProblem& problem, std::uint32_t task) {
+                 if (task >= problem.task_count()) {
+                     throw std::out_of_range("index out of range");
+                 }
+                 return problem.is_chance(relax::TaskId(task));
+             })
         .def("method_task",
              [](const AnalysedProblem& problem, std::size_t method) { return problem.method_task.at(method); })
         .def("method_parts", &share<&GroundProblem::method_parts>)
@@ -109,6 +118,7 @@ void bind_ground_problem(nb::module_& module) {
         .def("negative_preconditions", &row<&GroundProblem::negative_preconditions>)
         .def("action_arguments", &row<&GroundProblem::action_arguments>)
         .def("action_cost_blocks", &row<&GroundProblem::action_cost_blocks>)
+        .def("action_branches", &row<&GroundProblem::action_branches>)
         .def("cost_parts", &share<&GroundProblem::cost_parts>)
         .def("cost_part_blocks", &row<&GroundProblem::cost_part_blocks>)
         .def("cost_alternatives", &share<&GroundProblem::cost_alternatives>)

@@ -1,7 +1,9 @@
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/vector.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,12 @@ namespace {
 using Numbers = std::vector<std::uint32_t>;
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 using Terms = std::vector<relax::Term>;
+
+using Branch = std::optional<std::pair<std::uint32_t, std::uint32_t>>;  // the block, and which of its branches
+
+std::optional<relax::LiftedBranch> branch_of(const Branch& branch) {
+    return branch ? std::optional(relax::LiftedBranch{branch->first, branch->second}) : std::nullopt;
+}
 
 std::vector<LiftedVariable> variables_of(const Pairs& pairs) {
     std::vector<LiftedVariable> variables;
@@ -66,19 +74,22 @@ void bind_lifted_problem(nb::module_& module) {
         .def(
             "__init__",
             [](relax::LiftedEffect* self, const Pairs& variables, Formula condition, std::uint32_t predicate,
-               Terms arguments, bool positive) {
-                new (self) relax::LiftedEffect{variables_of(variables), std::move(condition), predicate,
-                                               std::move(arguments), positive};
+               Terms arguments, bool positive, Branch branch) {
+                new (self) relax::LiftedEffect{
+                    variables_of(variables), std::move(condition), predicate, std::move(arguments), positive,
+                    branch_of(branch)};
             },
-            "variables"_a, "condition"_a, "predicate"_a, "arguments"_a, "positive"_a);
+            "variables"_a, "condition"_a, "predicate"_a, "arguments"_a, "positive"_a, "branch"_a = nb::none());
 
     nb::class_<relax::LiftedCostCondition>(module, "LiftedCostCondition")
         .def(
             "__init__",
-            [](relax::LiftedCostCondition* self, std::uint32_t block, const Pairs& variables, Formula condition) {
-                new (self) relax::LiftedCostCondition{block, variables_of(variables), std::move(condition)};
+            [](relax::LiftedCostCondition* self, std::uint32_t block, const Pairs& variables, Formula condition,
+               Branch branch) {
+                new (self)
+                    relax::LiftedCostCondition{block, variables_of(variables), std::move(condition), branch_of(branch)};
             },
-            "block"_a, "variables"_a, "condition"_a);
+            "block"_a, "variables"_a, "condition"_a, "branch"_a = nb::none());
 
     nb::class_<relax::LiftedProblem>(module, "LiftedProblem")
         .def(nb::init<>())
@@ -91,11 +102,17 @@ void bind_lifted_problem(nb::module_& module) {
             "add_action",
             [](relax::LiftedProblem& self, Numbers parameters, std::uint32_t slot_count, Formula precondition,
                std::vector<relax::LiftedEffect> effects, std::vector<relax::LiftedCostCondition> cost_conditions,
-               bool is_precondition) {
-                self.actions.push_back({std::move(parameters), slot_count, std::move(precondition), std::move(effects),
-                                        std::move(cost_conditions), is_precondition});
+               bool is_precondition, const Pairs& outcome_blocks) {
+                relax::LiftedAction action{
+                    std::move(parameters),      slot_count, std::move(precondition), std::move(effects),
+                    std::move(cost_conditions), {},         is_precondition};
+                for (const auto& [variables, branches] : outcome_blocks) {
+                    action.outcome_blocks.push_back({variables, branches});
+                }
+                self.actions.push_back(std::move(action));
             },
-            "parameters"_a, "slot_count"_a, "precondition"_a, "effects"_a, "cost_conditions"_a, "is_precondition"_a)
+            "parameters"_a, "slot_count"_a, "precondition"_a, "effects"_a, "cost_conditions"_a, "is_precondition"_a,
+            "outcome_blocks"_a = Pairs{})
         .def(
             "add_task",
             [](relax::LiftedProblem& self, Numbers parameters) { self.tasks.push_back({std::move(parameters)}); },

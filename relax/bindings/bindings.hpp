@@ -10,6 +10,7 @@ void bind_search_options(nanobind::module_& module);
 void bind_find_plans(nanobind::module_& module);
 void bind_label_search(nanobind::module_& module);
 void bind_laws(nanobind::module_& module);
+void bind_policy_space(nanobind::module_& module);
 void bind_valuations(nanobind::module_& module);
 void bind_scenarios(nanobind::module_& module);
 

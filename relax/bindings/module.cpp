@@ -11,4 +11,5 @@ NB_MODULE(_relax, module) {
     bind_laws(module);
     bind_scenarios(module);
     bind_label_search(module);
+    bind_policy_space(module);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "composition.hpp"
+#include "outcomes.hpp"
 #include "relax/base/id_table.hpp"
 
 namespace relax::grounding {
@@ -70,6 +71,12 @@ public:
     }
 
 private:
+    struct Case {
+        ActionId first_outcome;
+        std::uint32_t outcome_count;
+        TaskId task;  // the action, or a chance task
+    };
+
     const LiftedProblem& lifted() const { return remains_.knowledge.problem; }
 
     template <typename Visit>
@@ -126,46 +133,69 @@ private:
         }
     }
 
-    // An action node with several cases becomes a choice, numbered after the
-    // compound tasks.
+    // An action node with several cases becomes a choice, and a case with several outcomes a chance task; they are
+    // numbered after the compound tasks.
     void write_actions() {
         for (std::uint32_t action = 0; action < lifted().actions.size(); ++action) {
             for_each_living_node(action, [&](NodeId node) {
                 if (!is_written_[node]) {
                     return;
                 }
-                const std::vector<RemainingCase> cases = remaining_cases(remains_, node);
-                if (cases.size() == 1) {
-                    task_of_node_[node] = static_cast<TaskId>(problem_.action_count());
-                } else {
-                    const auto first = static_cast<ActionId>(problem_.action_count());
-                    choices_.push_back({action, node, first, static_cast<std::uint32_t>(cases.size())});
+                std::vector<Case> cases;
+                for (RemainingCase& one : remaining_cases(remains_, node)) {
+                    cases.push_back(write_case(action, node, one));
                 }
-                for (const RemainingCase& one : cases) {
-                    write_action(one, number_of_fact_, problem_);
-                    problem_.action_schema.push_back(action);
-                    problem_.action_arguments.add_row(arguments_of(action, node));
+                if (cases.size() > 1 || cases[0].outcome_count > 1) {
+                    choices_.push_back({action, node, std::move(cases)});
+                } else {
+                    task_of_node_[node] = cases[0].task;
                 }
             });
         }
     }
 
+    Case write_case(std::uint32_t action, NodeId node, RemainingCase& one) {
+        const auto outcomes = outcomes_of(remains_, lifted().actions[action], one, number_of_fact_);
+        if (!outcomes) {
+            throw TooManyCases{action, node - remains_.graph.task_begin[action], true};
+        }
+        const auto first = static_cast<ActionId>(problem_.action_count());
+        for (const RemainingOutcome& outcome : *outcomes) {
+            write_action(one.condition, outcome, number_of_fact_, problem_);
+            problem_.action_schema.push_back(action);
+            problem_.action_arguments.add_row(arguments_of(action, node));
+        }
+        return {first, static_cast<std::uint32_t>(outcomes->size()), task_of(first)};
+    }
+
     void write_compounds() {
-        const auto add = [&](std::uint32_t task, NodeId node) {
-            task_of_node_[node] = static_cast<TaskId>(problem_.task_count());
+        const auto add = [&](std::uint32_t task, NodeId node, bool is_chance = false) {
+            const auto number = static_cast<TaskId>(problem_.task_count());
             problem_.compound_schema.push_back(task);
+            problem_.compound_is_chance.push_back(is_chance);
             problem_.compound_arguments.add_row(arguments_of(task, node));
+            return number;
         };
         for (auto task = static_cast<std::uint32_t>(lifted().actions.size()); task < remains_.knowledge.task_count();
              ++task) {
             for_each_living_node(task, [&](NodeId node) {
                 if (composition_->is_kept(node)) {
-                    add(task, node);
+                    task_of_node_[node] = add(task, node);
                 }
             });
         }
-        for (const Choice& choice : choices_) {
-            add(choice.action, choice.node);
+        for (Choice& choice : choices_) {
+            if (choice.cases.size() > 1) {
+                task_of_node_[choice.node] = add(choice.action, choice.node);
+            }
+            for (Case& one : choice.cases) {
+                if (one.outcome_count > 1) {
+                    one.task = add(choice.action, choice.node, true);
+                }
+            }
+            if (choice.cases.size() == 1) {
+                task_of_node_[choice.node] = choice.cases[0].task;
+            }
         }
     }
 
@@ -196,16 +226,25 @@ private:
         problem_.method_ordering.add_row(network.ordering);
     }
 
+    // The agent chooses the case, and nature the outcome.
     void write_choices() {
+        const auto add_method = [&](TaskId task, TaskId subtask) {
+            problem_.method_task.push_back(task);
+            problem_.method_parts.share_out(problem_.part_schema.size());
+            problem_.method_subtasks.push(subtask);
+            problem_.method_subtasks.finish_row();
+            problem_.method_positions.push({0, 0});
+            problem_.method_positions.finish_row();
+            problem_.method_ordering.finish_row();
+        };
         for (const Choice& choice : choices_) {
-            for (std::uint32_t one = 0; one < choice.case_count; ++one) {
-                problem_.method_task.push_back(*task_of_node_[choice.node]);
-                problem_.method_parts.share_out(problem_.part_schema.size());
-                problem_.method_subtasks.push(TaskId(choice.first_case + one));
-                problem_.method_subtasks.finish_row();
-                problem_.method_positions.push({0, 0});
-                problem_.method_positions.finish_row();
-                problem_.method_ordering.finish_row();
+            for (const Case& one : choice.cases) {
+                if (choice.cases.size() > 1) {
+                    add_method(*task_of_node_[choice.node], one.task);
+                }
+                for (std::uint32_t outcome = 0; one.outcome_count > 1 && outcome < one.outcome_count; ++outcome) {
+                    add_method(one.task, TaskId(one.first_outcome + outcome));
+                }
             }
         }
     }
@@ -220,11 +259,11 @@ private:
         }
     }
 
+    // An action node with several cases or outcomes.
     struct Choice {
         std::uint32_t action;
         NodeId node;
-        ActionId first_case;
-        std::uint32_t case_count;
+        std::vector<Case> cases;
     };
 
     const Remains& remains_;

@@ -36,12 +36,21 @@ using Effects = std::map<Conjunction, Conjunction>;
 // Blocks of an action's cost (as GroundProblem::action_cost_blocks) by the condition on which they are due.
 using Costs = std::map<Disjunction, std::vector<std::uint32_t>>;
 
-// A case of an action, with what remains of its precondition, its effects and its cost.
+// What a branch of an outcome changes and costs, both as they stand.
+struct RemainingBranch {
+    BranchId id;
+    Effects effects;
+    Costs costs;
+};
+
+// A case of an action, with what remains of its precondition, its effects and its cost: those that are certain, and
+// those of the branches of its outcomes. Where there are any, effects that others make redundant are still there.
 struct RemainingCase {
     CaseId number;
     Conjunction condition;
     Effects effects;
     Costs costs;
+    std::vector<RemainingBranch> branches;  // by BranchId
 };
 // At least one.
 std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action);
@@ -50,10 +59,8 @@ std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action
 // `is_written`: by action node.
 std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is_written);
 
-// Append the precondition, the effects and the cost of a case, with facts numbered by
-// `number_of_fact`.
-void write_action(const RemainingCase& one, const std::vector<std::optional<FactId>>& number_of_fact,
-                  GroundProblem& problem);
+// Drop effects that the precondition or other effects make redundant.
+void tidy(Effects& effects, const Conjunction& precondition);
 
 }  // namespace relax::grounding
 

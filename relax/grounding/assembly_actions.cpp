@@ -39,6 +39,44 @@ std::optional<Conjunction> condition_within(const Remains& remains, std::span<co
     return rest;
 }
 
+RemainingBranch& branch_of(RemainingCase& one, BranchId branch) {
+    const auto at = std::ranges::lower_bound(one.branches, branch, {}, &RemainingBranch::id);
+    return at != one.branches.end() && at->id == branch ? *at : *one.branches.insert(at, {branch, {}, {}});
+}
+
+// Put what the action changes and costs where the precondition holds into the case, each to its branch.
+void add_effects(const Remains& remains, RemainingCase& one) {
+    const Cases& cases = remains.cases;
+    for (const EffectId effect : cases.effects[cases.owner[one.number]]) {
+        const auto condition = condition_within(remains, cases.effect_condition[effect], one.condition);
+        if (cases.is_effect_alive[effect] && condition) {
+            const BranchId branch = cases.effect_branch[effect];
+            Effects& effects = branch == Cases::kCertain ? one.effects : branch_of(one, branch).effects;
+            std::ranges::copy(cases.effect_changes[effect], std::back_inserter(effects[*condition]));
+        }
+    }
+}
+
+void add_costs(const Remains& remains, RemainingCase& one) {
+    const Cases& cases = remains.cases;
+    for (const CostPartId part : cases.cost_parts[cases.owner[one.number]]) {
+        Disjunction condition;
+        for (const AlternativeId alternative : cases.cost_alternatives[part]) {
+            if (auto rest = condition_within(remains, cases.cost_condition[alternative], one.condition)) {
+                condition.push_back(*std::move(rest));
+            }
+        }
+        drop_subsumed(condition);
+        if (!condition.empty()) {
+            const BranchId branch = cases.cost_branch[part];
+            Costs& costs = branch == Cases::kCertain ? one.costs : branch_of(one, branch).costs;
+            std::ranges::copy(cases.cost_blocks[part], std::back_inserter(costs[condition]));
+        }
+    }
+}
+
+}  // namespace
+
 // Drop effects that the precondition or other effects make redundant.
 void tidy(Effects& effects, const Conjunction& precondition) {
     const auto always = effects.find({});
@@ -71,47 +109,12 @@ void tidy(Effects& effects, const Conjunction& precondition) {
     std::erase_if(effects, [](const auto& effect) { return effect.second.empty(); });
 }
 
-Effects effects_of(const Remains& remains, CaseId number, const Conjunction& precondition) {
-    const NodeId owner = remains.cases.owner[number];
-    Effects effects;
-    for (const EffectId effect : remains.cases.effects[owner]) {
-        const auto condition = condition_within(remains, remains.cases.effect_condition[effect], precondition);
-        if (remains.cases.is_effect_alive[effect] && condition) {
-            Conjunction& changes = effects[*condition];
-            std::ranges::copy(remains.cases.effect_changes[effect], std::back_inserter(changes));
-        }
-    }
-    tidy(effects, precondition);
-    return effects;
-}
-
-Costs costs_of(const Remains& remains, CaseId number, const Conjunction& precondition) {
-    const Cases& cases = remains.cases;
-    const NodeId owner = cases.owner[number];
-    Costs costs;
-    for (const CostPartId part : cases.cost_parts[owner]) {
-        Disjunction condition;
-        for (const AlternativeId alternative : cases.cost_alternatives[part]) {
-            if (auto rest = condition_within(remains, cases.cost_condition[alternative], precondition)) {
-                condition.push_back(*std::move(rest));
-            }
-        }
-        drop_subsumed(condition);
-        if (!condition.empty()) {
-            std::ranges::copy(cases.cost_blocks[part], std::back_inserter(costs[condition]));
-        }
-    }
-    return costs;
-}
-
-}  // namespace
-
 std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action) {
     constexpr std::size_t kMostComparedCases = 300;
     std::vector<RemainingCase> candidates;
     for (const CaseId number : remains.cases.cases[action]) {
         if (remains.cases.is_alive[number]) {
-            candidates.push_back({number, without_constants(remains, remains.cases.condition[number]), {}, {}});
+            candidates.push_back({number, without_constants(remains, remains.cases.condition[number]), {}, {}, {}});
         }
     }
     std::ranges::stable_sort(candidates, {}, [](const RemainingCase& one) { return one.condition.size(); });
@@ -121,8 +124,11 @@ std::vector<RemainingCase> remaining_cases(const Remains& remains, NodeId action
             return std::ranges::includes(candidate.condition, other.condition);
         };
         if (kept.size() > kMostComparedCases || std::ranges::none_of(kept, covers)) {
-            candidate.effects = effects_of(remains, candidate.number, candidate.condition);
-            candidate.costs = costs_of(remains, candidate.number, candidate.condition);
+            add_effects(remains, candidate);
+            add_costs(remains, candidate);
+            if (candidate.branches.empty()) {
+                tidy(candidate.effects, candidate.condition);
+            }
             kept.push_back(std::move(candidate));
         }
     }
@@ -141,6 +147,17 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is
     };
     Rows<Literal> conditions;  // of effects that have one
     Rows<Literal> changes_under;
+    const auto read_parts = [&](const Effects& effects, const Costs& costs) {
+        for (const auto& [condition, blocks] : costs) {
+            std::ranges::for_each(condition, read);
+        }
+        for (const auto& [condition, changes] : effects) {
+            if (!condition.empty()) {
+                conditions.add_row(condition);
+                changes_under.add_row(changes);
+            }
+        }
+    };
     for (NodeId node = 0; node < is_written.size(); ++node) {
         if (!is_written[node]) {
             continue;
@@ -148,14 +165,9 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is
         remains.limits.stop_if_reached();
         for (const RemainingCase& one : remaining_cases(remains, node)) {
             read(one.condition);
-            for (const auto& [condition, blocks] : one.costs) {
-                std::ranges::for_each(condition, read);
-            }
-            for (const auto& [condition, changes] : one.effects) {
-                if (!condition.empty()) {
-                    conditions.add_row(condition);
-                    changes_under.add_row(changes);
-                }
+            read_parts(one.effects, one.costs);
+            for (const RemainingBranch& branch : one.branches) {
+                read_parts(branch.effects, branch.costs);
             }
         }
     }
@@ -169,42 +181,6 @@ std::vector<bool> read_facts(const Remains& remains, const std::vector<bool>& is
         }
     }
     return is_read;
-}
-
-void write_action(const RemainingCase& one, const std::vector<std::optional<FactId>>& number_of_fact,
-                  GroundProblem& problem) {
-    const auto number = [&](Literal literal) { return number_of_fact[fact_of(literal)]; };
-    const auto write = [&](const Conjunction& literals, auto& positive, auto& negative) {
-        assert(std::ranges::is_sorted(literals));
-        for (const Literal literal : literals) {
-            if (const auto fact = number(literal)) {
-                (is_negated(literal) ? negative : positive).push(*fact);
-            }
-        }
-        positive.finish_row();
-        negative.finish_row();
-    };
-    write(one.condition, problem.preconditions, problem.negative_preconditions);
-    for (const auto& [condition, changes] : one.effects) {
-        if (std::ranges::any_of(changes, [&](Literal change) { return number(change).has_value(); })) {
-            write(condition, problem.effect_conditions, problem.effect_negative_conditions);
-            write(changes, problem.effect_adds, problem.effect_deletes);
-        }
-    }
-    problem.effects.share_out(problem.effect_adds.size());
-    for (const auto& [condition, blocks] : one.costs) {
-        if (is_true(condition)) {
-            std::ranges::for_each(blocks, [&](std::uint32_t entry) { problem.action_cost_blocks.push(entry); });
-            continue;
-        }
-        problem.cost_part_blocks.add_row(blocks);
-        for (const Conjunction& alternative : condition) {
-            write(alternative, problem.cost_conditions, problem.cost_negative_conditions);
-        }
-        problem.cost_alternatives.share_out(problem.cost_conditions.size());
-    }
-    problem.action_cost_blocks.finish_row();
-    problem.cost_parts.share_out(problem.cost_part_count());
 }
 
 }  // namespace relax::grounding

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
 
 #include "formulas.hpp"
 
@@ -67,6 +71,8 @@ public:
         order_.resize(dependents.keys.size());
         std::iota(order_.begin(), order_.end(), 0U);
         std::ranges::stable_sort(order_, {}, [&](std::uint32_t at) { return dependents.keys[at]; });
+        cases_.branches.emplace_back();
+        cases_.branch_objects.finish_row();
     }
 
     Cases make() {
@@ -102,6 +108,7 @@ private:
         const std::span<const ObjectId> arguments = knowledge_.relations[knowledge_.task_relation(action)][instance];
         Bindings bindings(knowledge_.problem.actions[action].slot_count);
         std::ranges::copy(arguments, bindings.begin());
+        branch_numbers_.clear();
         try {
             add_cases(node, normal, bindings);
             add_effects(action, node, normal, own, bindings);
@@ -118,26 +125,45 @@ private:
         }
     }
 
+    // The number of a dependent's branch. The objects of its variables begin with those of the branch's block.
+    BranchId branch_of(std::uint32_t action, const std::optional<LiftedBranch>& branch,
+                       std::span<const ObjectId> objects) {
+        if (!branch) {
+            return Cases::kCertain;
+        }
+        const auto count = knowledge_.problem.actions[action].outcome_blocks[branch->block].variable_count;
+        objects = objects.first(count);
+        const auto [entry, is_new] = branch_numbers_.try_emplace(
+            {branch->block, branch->branch, {objects.begin(), objects.end()}}, cases_.branches.size());
+        if (is_new) {
+            cases_.branches.push_back(*branch);
+            cases_.branch_objects.add_row(objects);
+        }
+        return entry->second;
+    }
+
     // Blocks that are due on the same condition are one part.
     template <typename Keys>
     void add_costs(std::uint32_t action, const NormalAction& normal, const Keys& own, Bindings& bindings) {
         const LiftedAction& lifted = knowledge_.problem.actions[action];
-        std::map<Disjunction, std::vector<std::uint32_t>> costs;
+        std::map<std::pair<BranchId, Disjunction>, std::vector<std::uint32_t>> costs;
         for (const std::uint32_t at : own) {
             const std::uint32_t dependent = dependents_.keys[at].dependent;
             if (dependent >= lifted.effects.size()) {
                 const LiftedCostCondition& cost = lifted.cost_conditions[dependent - lifted.effects.size()];
                 const std::span<const ObjectId> objects = dependents_.objects[at];
                 bind(cost.variables, objects, bindings);
-                std::vector<std::uint32_t>& blocks = costs[expander_.expand(normal.dependents[dependent], bindings)];
+                std::vector<std::uint32_t>& blocks = costs[{branch_of(action, cost.branch, objects),
+                                                            expander_.expand(normal.dependents[dependent], bindings)}];
                 blocks.push_back(cost.block);
                 blocks.push_back(static_cast<std::uint32_t>(objects.size()));
                 blocks.insert(blocks.end(), objects.begin(), objects.end());
             }
         }
-        for (const auto& [condition, blocks] : costs) {
+        for (const auto& [due, blocks] : costs) {
             cases_.cost_blocks.add_row(blocks);
-            for (const Conjunction& alternative : condition) {
+            cases_.cost_branch.push_back(due.first);
+            for (const Conjunction& alternative : due.second) {
                 cases_.cost_condition.add_row(alternative);
             }
             cases_.cost_alternatives.share_out(cases_.cost_condition.size());
@@ -155,29 +181,35 @@ private:
     void add_effects(std::uint32_t action, NodeId node, const NormalAction& normal, const Keys& own,
                      Bindings& bindings) {
         const LiftedAction& lifted = knowledge_.problem.actions[action];
-        Effects effects;
-        const auto add = [&](const LiftedEffect& effect, const Disjunction& condition) {
+        std::map<BranchId, Effects> effects_of;
+        const auto add = [&](const LiftedEffect& effect, std::span<const ObjectId> objects,
+                             const Disjunction& condition) {
             if (const auto fact = expander_.fact(effect.predicate, effect.arguments, bindings)) {
-                add_change(effects, condition, literal_of(*fact, !effect.positive));
+                add_change(effects_of[branch_of(action, effect.branch, objects)], condition,
+                           literal_of(*fact, !effect.positive));
             }
         };
         for (const LiftedEffect& effect : lifted.effects) {
             if (is_simple(effect)) {
-                add(effect, {Conjunction{}});
+                add(effect, {}, {Conjunction{}});
             }
         }
         for (const std::uint32_t at : own) {
             const std::uint32_t dependent = dependents_.keys[at].dependent;
             if (dependent < lifted.effects.size()) {
-                bind(lifted.effects[dependent].variables, dependents_.objects[at], bindings);
-                add(lifted.effects[dependent], expander_.expand(normal.dependents[dependent], bindings));
+                const std::span<const ObjectId> objects = dependents_.objects[at];
+                bind(lifted.effects[dependent].variables, objects, bindings);
+                add(lifted.effects[dependent], objects, expander_.expand(normal.dependents[dependent], bindings));
             }
         }
-        tidy(effects);
-        for (const auto& [condition, changes] : effects) {
-            cases_.effect_owner.push_back(node);
-            cases_.effect_condition.add_row(condition);
-            cases_.effect_changes.add_row(changes);
+        for (auto& [branch, effects] : effects_of) {
+            tidy(effects);
+            for (const auto& [condition, changes] : effects) {
+                cases_.effect_owner.push_back(node);
+                cases_.effect_condition.add_row(condition);
+                cases_.effect_changes.add_row(changes);
+                cases_.effect_branch.push_back(branch);
+            }
         }
     }
 
@@ -187,6 +219,8 @@ private:
     const Dependents& dependents_;
     Limits& limits_;
     std::vector<std::uint32_t> order_;  // of the dependents: by action, instance, dependent
+    // Of the instance looked at: by block, branch and objects.
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::vector<ObjectId>>, BranchId> branch_numbers_;
     Cases cases_;
 };
 

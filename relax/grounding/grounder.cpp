@@ -85,7 +85,7 @@ std::variant<std::unique_ptr<AnalysedProblem>, StopReason, TooManyCasesOf> groun
         return stopped.reason;
     } catch (const TooManyCases& error) {
         const auto arguments = knowledge.relations[knowledge.task_relation(error.action)][error.instance];
-        return TooManyCasesOf{error.action, {arguments.begin(), arguments.end()}};
+        return TooManyCasesOf{error.action, {arguments.begin(), arguments.end()}, error.is_about_outcomes};
     } catch (const std::bad_alloc&) {
         return StopReason::MemoryLimit;
     }

@@ -99,6 +99,7 @@ private:
             copy_.action_schema.push_back(old_.action_schema[action]);
             copy_.action_arguments.add_row(old_.action_arguments[action]);
             copy_.action_cost_blocks.add_row(old_.action_cost_blocks[action]);
+            copy_.action_branches.add_row(old_.action_branches[action]);
             for (const EffectId effect : old_.effects[action]) {
                 copy_.effect_conditions.add_row(old_.effect_conditions[effect]);
                 copy_.effect_negative_conditions.add_row(old_.effect_negative_conditions[effect]);
@@ -123,6 +124,7 @@ private:
             if (living_.is_alive(task)) {
                 number_of_task_[task] = static_cast<TaskId>(copy_.task_count());
                 copy_.compound_schema.push_back(old_.compound_schema[task - old_.action_count()]);
+                copy_.compound_is_chance.push_back(old_.is_chance(task));
                 copy_.compound_arguments.add_row(old_.compound_arguments[task - old_.action_count()]);
             }
         }

@@ -28,9 +28,10 @@ std::optional<ActionId> first_action(const AnalysedProblem& problem, MethodId me
         }
         first = ordering[at - 1].first;
     }
-    return !subtasks.empty() && problem.is_primitive(subtasks[first])
-               ? std::optional(problem.action_of(subtasks[first]))
-               : std::nullopt;
+    if (subtasks.empty() || !(problem.is_primitive(subtasks[first]) || problem.is_chance(subtasks[first]))) {
+        return std::nullopt;
+    }
+    return problem.any_outcome(subtasks[first]);
 }
 
 }  // namespace
@@ -180,10 +181,9 @@ void Progression::choose_actions(StateId state, NetworkId network) {
 }
 
 void Progression::find_live_methods(StateId state) {
-    const bool comes_next = !first_action_.empty() && unconstrained_.size() == 1;
+    const bool comes_next = unconstrained_.size() == 1;
     for (const MethodId method : problem_.methods_of(compound_->task)) {
-        if (!comes_next || !first_action_[method] ||
-            transition_.is_applicable(*first_action_[method], states_[state])) {
+        if (!comes_next || can_begin(method, state)) {
             live_methods_.push_back(method);
         }
     }
@@ -226,8 +226,7 @@ Successor Progression::decompose(StateId state, NetworkId network, const Occurre
     return {state, next, {occurrence.index, method}, std::nullopt, {}};
 }
 
-Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence) {
-    const ActionId action = problem_.action_of(occurrence.task);
+Successor Progression::execute(StateId state, NetworkId network, const Occurrence& occurrence, ActionId action) {
     std::vector<CostPartId> due_parts;
     for (const CostPartId part : problem_.cost_parts[action]) {
         if (transition_.is_due(part, states_[state])) {

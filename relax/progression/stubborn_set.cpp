@@ -22,14 +22,16 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
     is_applicable_.assign(network.words, 0);
     compounds_.reads.clear();
     compounds_.makes.clear();
+    are_compounds_uncertain_ = false;
     for (const Occurrence& occurrence : unconstrained) {
-        if (!problem_.is_primitive(occurrence.task)) {
+        if (!is_action(occurrence.task)) {
+            are_compounds_uncertain_ = are_compounds_uncertain_ || is_uncertain(occurrence.task);
             compounds_.reads.insert_all(occurring_[occurrence.index]->reads);
             compounds_.makes.insert_all(occurring_[occurrence.index]->makes);
             continue;
         }
         set_bit(is_open_, occurrence.index);
-        if (transition_.is_applicable(problem_.action_of(occurrence.task), state)) {
+        if (transition_.is_applicable(problem_.any_outcome(occurrence.task), state)) {
             set_bit(is_applicable_, occurrence.index);
         }
     }
@@ -39,7 +41,7 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
         // Two occurrences of one task lead to similar sets, as a rule: one is enough.
         const bool is_tried = std::any_of(unconstrained.data(), &seed,
                                           [&](const Occurrence& earlier) { return earlier.task == seed.task; });
-        if (is_tried || !problem_.is_primitive(seed.task) || !close(network, state, seed.index)) {
+        if (is_tried || !is_action(seed.task) || !close(network, state, seed.index)) {
             continue;
         }
         const auto count = static_cast<std::size_t>(
@@ -71,13 +73,13 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
     for (std::size_t next = 0; next < members_.size(); ++next) {
         limits_.stop_if_reached();
         const std::uint32_t member = members_[next];
-        if (concerns(compounds_, member, state)) {
+        if (are_compounds_uncertain_ || concerns(compounds_, member, state)) {
             return false;
         }
         work_ += network.tasks.size();
         for (std::uint32_t other = 0; other < network.tasks.size(); ++other) {
             if (has_bit(is_member_, other) || has_bit(is_after_, other) ||
-                !concerns(*occurring_[other], member, state)) {
+                !(is_uncertain(network.tasks[other]) || concerns(*occurring_[other], member, state))) {
                 continue;
             }
             if (has_bit(is_open_, other)) {

@@ -63,6 +63,7 @@ public:
     void compounds(std::uint32_t count) {
         for (std::uint32_t compound = 0; compound < count; ++compound) {
             problem.compound_schema.push_back(compound);
+            problem.compound_is_chance.push_back(false);
             problem.compound_arguments.finish_row();
             for (const relax::MethodId id : problem.methods()) {
                 if (problem.method_task[id] == problem.action_count() + compound) {

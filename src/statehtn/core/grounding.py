@@ -10,7 +10,7 @@ from itertools import chain
 import statehtn._relax as _relax
 from statehtn.core.cost_laws import CostLaws
 from statehtn.core.encode import Encoding, encode
-from statehtn.errors import UnsupportedError
+from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import LimitReached, Limits, watched
 from statehtn.model import (
     CostLaw,
@@ -211,8 +211,12 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
     if isinstance(handle, _relax.StopReason):
         raise LimitReached(STOPPED[handle])
     if isinstance(handle, tuple):
-        action, arguments = handle
+        action, arguments, has_many_outcomes = handle
         name = " ".join((encoding.action_names[action], *(encoding.objects[number] for number in arguments)))
+        if has_many_outcomes:
+            raise InputError(
+                f"({name}) has more than 64 outcomes with different facts; can its effects be stated with fewer?"
+            )
         raise UnsupportedError(
             f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?"
         )

@@ -39,7 +39,7 @@ struct TaskProfile {
     Literals makes;
     // What the action makes false whatever the state is; nothing for a compound task.
     Literals undoes;
-    // For an action: its preconditions, and the same as `reads` and `makes`.
+    // For an action and a chance task: its preconditions, and the same as `reads` and `makes`.
     std::vector<Literal> preconditions;
     std::vector<Literal> read_list;
     std::vector<Literal> made_list;
@@ -60,6 +60,7 @@ public:
 
 private:
     TaskProfile of_action(ActionId action) const;
+    TaskProfile of_chance(TaskId task, Limits& limits) const;
     TaskProfile of_compound(TaskId task, Limits& limits) const;
 
     const GroundProblem& problem_;

@@ -13,10 +13,11 @@
 
 namespace relax {
 
-// An action whose precondition or cost falls into too many cases.
+// An action whose precondition or cost falls into too many cases, or one with too many outcomes.
 struct TooManyCasesOf {
     std::uint32_t action;
     std::vector<ObjectId> arguments;
+    bool is_about_outcomes;
 };
 
 // Refinements that keep the set of plans.

@@ -7,9 +7,16 @@
 // once for each case, and a compound task of the same schema and arguments (a "choice") has one method for each of
 // them.
 //
+// An action with several outcomes stands here once for each of them, and a compound task of the same schema and
+// arguments (a "chance task") has one method for each of these *outcome actions*: they have the same precondition, and
+// each changes and costs what is certain and what belongs to its outcome. So this problem is deterministic; where it is
+// nature that chooses the methods of chance tasks, it is the problem with outcomes, and where the agent does, it is its
+// all-outcomes determinisation.
+//
 // The cost of an action is the sum of independent parts: those that are always due, and its *cost parts*, each of which
 // is due, once, where a condition holds in the state before the action. Risk costs of independent parts add up.
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <utility>
@@ -37,6 +44,10 @@ struct GroundProblem {
     // block's number, the number of its variables, their objects.
     Rows<std::uint32_t, ActionId> action_cost_blocks;
     Shares<ActionId, CostPartId> cost_parts;
+    // What nature chooses where the action comes of it: one of several combinations of branches, each the number of its
+    // records, then these: the number of a block of outcomes, the branch, the number of the block's variables, their
+    // objects. The combinations of a chance task's actions exclude each other. Empty for an action of one outcome.
+    Rows<std::uint32_t, ActionId> action_branches;
 
     // By CostPartId. The condition is that one of its alternatives holds.
     Rows<std::uint32_t, CostPartId> cost_part_blocks;  // what is due then, as in `action_cost_blocks`
@@ -52,14 +63,16 @@ struct GroundProblem {
     Rows<FactId, EffectId> effect_deletes;
 
     // By compound task: index 0 is task number action_count().
-    std::vector<std::uint32_t> compound_schema;  // as in LiftedSubtask::task: an action's number for a choice
+    // As in LiftedSubtask::task; an action's number for a choice and for a chance task.
+    std::vector<std::uint32_t> compound_schema;
     Rows<ObjectId> compound_arguments;
     Rows<MethodId> compound_methods;
+    std::vector<bool> compound_is_chance;  // nature chooses the method, which is one outcome action
 
     // By MethodId.
     std::vector<TaskId> method_task;
     // Lifted methods that were applied at once, its own first, since the tasks that the others decompose have no other
-    // method. A method of a choice has none.
+    // method. A method of a choice has none, nor has one of a chance task.
     Shares<MethodId, PartId> method_parts;
     Rows<TaskId, MethodId> method_subtasks;
     // Of each subtask: the part that it belongs to, counted from the method's first, and its index in that lifted
@@ -105,6 +118,15 @@ struct GroundProblem {
     ActionId action_of(TaskId task) const {
         assert(is_primitive(task));
         return ActionId(std::uint32_t{task});
+    }
+    // Whether nature chooses among the task's methods.
+    bool is_chance(TaskId task) const { return !is_primitive(task) && compound_is_chance[task - action_count()]; }
+    bool has_outcomes() const { return std::ranges::find(compound_is_chance, true) != compound_is_chance.end(); }
+    // Of a method of a chance task: its outcome action.
+    ActionId outcome_action(MethodId method) const { return action_of(method_subtasks[method].front()); }
+    // Of an action or a chance task: itself, or one of its outcome actions. They have the same precondition.
+    ActionId any_outcome(TaskId task) const {
+        return is_primitive(task) ? action_of(task) : outcome_action(methods_of(task).front());
     }
     // Of a compound task.
     std::span<const MethodId> methods_of(TaskId task) const {

@@ -7,6 +7,7 @@
 // end.
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,12 +33,19 @@ struct Formula {
     std::vector<LiftedVariable> variables;  // Exists, Forall
 };
 
+// One of the branches of a block of outcomes of an action, of which nature chooses one.
+struct LiftedBranch {
+    std::uint32_t block = 0;  // index into LiftedAction::outcome_blocks
+    std::uint32_t branch = 0;
+};
+
 struct LiftedEffect {
-    std::vector<LiftedVariable> variables;  // of a universal effect
+    std::vector<LiftedVariable> variables;  // of a universal effect; first those of its block of outcomes
     Formula condition;
     std::uint32_t predicate = 0;
     std::vector<Term> arguments;
     bool positive = true;
+    std::optional<LiftedBranch> branch = std::nullopt;  // none: it happens whatever nature chooses
 };
 
 // A condition on which a part of the action's cost depends.
@@ -45,6 +53,14 @@ struct LiftedCostCondition {
     std::uint32_t block = 0;  // which part; the grounder only passes it on
     std::vector<LiftedVariable> variables;
     Formula condition;
+    std::optional<LiftedBranch> branch = std::nullopt;  // as of effects
+};
+
+// A block of outcomes. It has an instance for each of the objects that its variables may be, and nature chooses one
+// branch of each, whatever it chooses of the others.
+struct LiftedOutcomeBlock {
+    std::uint32_t variable_count = 0;
+    std::uint32_t branch_count = 0;
 };
 
 struct LiftedAction {
@@ -53,6 +69,7 @@ struct LiftedAction {
     Formula precondition;
     std::vector<LiftedEffect> effects;
     std::vector<LiftedCostCondition> cost_conditions;
+    std::vector<LiftedOutcomeBlock> outcome_blocks;
     bool is_precondition = false;  // a method precondition or the goal: left out where it is trivially true
 };
 

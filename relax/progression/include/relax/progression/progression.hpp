@@ -74,6 +74,17 @@ public:
     // The same where there is at most one successor, or one is enough, and that is found with little work. False, and
     // no successors, elsewhere.
     bool expand_if_forced(StateId state, NetworkId network, std::vector<Successor>& successors);
+    // One step: a method applied to a compound task, or an action executed, which is that of an unconstrained task or
+    // an outcome action of it, and applicable.
+    Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
+    Successor execute(StateId state, NetworkId network, const Occurrence& occurrence, ActionId action);
+    // Whether an action costs and changes nothing in any state, and comes at once.
+    bool is_executed_at_once(TaskId task) const { return problem_.is_primitive(task) && is_executed_at_once_[task]; }
+    // False: the method is dead in this state if its first task comes next.
+    bool can_begin(MethodId method, StateId state) const {
+        return first_action_.empty() || !first_action_[method] ||
+               transition_.is_applicable(*first_action_[method], states_[state]);
+    }
     // What heuristics see of a node but for its bound; valid until the next call.
     NodeView view(StateId state, NetworkId network);
 
@@ -97,12 +108,12 @@ private:
     bool decompose_at_once(StateId state, NetworkId network, std::vector<Successor>& successors);
     void expand_when_due(StateId state, NetworkId network, std::vector<Successor>& successors);
     std::optional<Occurrence> compound_to_decompose() const;
-    bool is_executed_at_once(TaskId task) const { return problem_.is_primitive(task) && is_executed_at_once_[task]; }
     void find_live_methods(StateId state);
     void choose_actions(StateId state, NetworkId network);
-    Successor decompose(StateId state, NetworkId network, const Occurrence& occurrence, MethodId method);
     StateId keep_relevant(NetworkId network);
-    Successor execute(StateId state, NetworkId network, const Occurrence& occurrence);
+    Successor execute(StateId state, NetworkId network, const Occurrence& occurrence) {
+        return execute(state, network, occurrence, problem_.action_of(occurrence.task));
+    }
 
     const GroundProblem& problem_;
     StateTransition transition_;
@@ -110,7 +121,8 @@ private:
     StateRegistry states_;
     std::unique_ptr<TaskNetworks> networks_;
     Branching branching_;
-    // By MethodId: an action that comes before all other subtasks; empty if dead methods are not to be skipped.
+    // By MethodId: an action that comes before all other subtasks, one of its outcomes if it has several; empty if dead
+    // methods are not to be skipped.
     std::vector<std::optional<ActionId>> first_action_;
     std::optional<StubbornSet> stubborn_set_;
     std::optional<RelevantFacts> relevant_facts_;

@@ -34,10 +34,17 @@ namespace relax {
 //
 // The set is closed by adding what violates (1) or (2): an action of R that is unconstrained itself, or else an
 // unconstrained action before it, which takes it out of R.
+//
+// For policies (PolicyProgression) chance tasks are actions, and nothing of R is uncertain, either.
 class StubbornSet {
 public:
-    StubbornSet(const AnalysedProblem& problem, Limits& limits)
-        : problem_(problem), limits_(limits), transition_(problem), compounds_(TaskProfile::empty(problem)) {}
+    // `uncertain`: for policies, by TaskId; it must live longer.
+    StubbornSet(const AnalysedProblem& problem, Limits& limits, const std::vector<bool>* uncertain = nullptr)
+        : problem_(problem),
+          limits_(limits),
+          uncertain_(uncertain),
+          transition_(problem),
+          compounds_(TaskProfile::empty(problem)) {}
 
     // Find the applicable members of the smallest such set: where there are none, the node is a dead end. Nothing,
     // where every set would have to contain a compound task. Valid until the next call. Throws Stopped.
@@ -48,6 +55,10 @@ public:
     std::uint64_t work() const { return work_; }
 
 private:
+    bool is_action(TaskId task) const {
+        return problem_.is_primitive(task) || (uncertain_ != nullptr && problem_.is_chance(task));
+    }
+    bool is_uncertain(TaskId task) const { return uncertain_ != nullptr && (*uncertain_)[task]; }
     bool close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed);
     bool concerns(const TaskProfile& other, std::uint32_t member, std::span<const std::uint64_t> state) const;
     std::optional<std::uint32_t> open_before(const OrderedTasks& network, std::uint32_t task) const;
@@ -55,12 +66,14 @@ private:
 
     const AnalysedProblem& problem_;
     Limits& limits_;
+    const std::vector<bool>* uncertain_;  // nothing for plans
     StateTransition transition_;
     // Of the network looked at.
     OrderedTasks successors_;
     std::vector<const TaskProfile*> occurring_;  // by occurrence
     std::vector<std::uint64_t> is_open_;         // a row: the unconstrained actions
     TaskProfile compounds_;                      // what the unconstrained compound tasks read and make, together
+    bool are_compounds_uncertain_ = false;       // whether one of them is
     std::vector<std::uint64_t> is_applicable_;   // a row
     // The set being made.
     std::vector<std::uint32_t> members_;
