@@ -16,7 +16,6 @@ from statehtn.build.declarations import Declarations, Scope
 from statehtn.build.external import external
 from statehtn.build.terms import checked_formula, checked_variables
 from statehtn.errors import UsageError
-from statehtn.hddl.cost_reader import constant_value
 from statehtn.model import (
     TRUE,
     And,
@@ -33,6 +32,7 @@ from statehtn.model import (
     Parameter,
 )
 from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE, Amount, Computable, ExternalCost, block_of, exact
+from statehtn.model.cost.expressions import constant_value
 from statehtn.model.cost.law import is_of_scipy
 from statehtn.model.formula import Combinable
 

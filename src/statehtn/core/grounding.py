@@ -199,6 +199,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
             `CostWarning` (see `statehtn.model.cost.unknown`).
         UnsupportedError: a precondition falls into too many cases.
     """
+    _refuse_outcomes(problem)
     with watched(limits):
         encoding = encode(problem, switches.split_methods)
     handle = _relax.ground(
@@ -223,3 +224,12 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
     with watched(limits):
         laws, part_laws = CostLaws(encoding, handle, limits).all()
     return Grounding(problem, encoding, handle, laws, part_laws, switches)
+
+
+def _refuse_outcomes(problem: Problem) -> None:
+    """Refuse actions with several outcomes: no sequence of actions does for sure what a plan promises."""
+    for action in problem.domain.actions.values():
+        for block in action.outcomes:
+            raise UnsupportedError(
+                f"action '{action.name}' changes facts by chance, which plans cannot answer", block.place
+            )

@@ -67,7 +67,7 @@ def method_schemes(problem: Problem, split: bool) -> tuple[list[PreconditionActi
         problem: the lifted problem.
         split: whether to part unrelated choices.
     """
-    fluents = {effect.atom.predicate for action in problem.domain.actions.values() for effect in action.effects}
+    fluents = {effect.atom.predicate for action in problem.domain.actions.values() for effect in action.all_effects}
     precondition_actions: list[PreconditionAction] = []
     schemes: list[Scheme] = []
     for method in problem.domain.methods.values():

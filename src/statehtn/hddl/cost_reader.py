@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -13,12 +14,13 @@ from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.vocabulary import Scope, Vocabulary
 from statehtn.model import Arithmetic, Expression, FunctionTerm, Number
 from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE
-from statehtn.model.cost.ground_cost import evaluate
+from statehtn.model.cost.expressions import constant_value
 
 TOTAL_COST = "total-cost"
 LEAST_NUMBER, MOST_NUMBER = Fraction(math.ulp(0.0)), Fraction(sys.float_info.max)  # above 0, in floating point
 Branches = tuple[tuple[Expression, Expression], ...]
 
+_NUMERIC = frozenset({"decrease", "assign", "scale-up", "scale-down"})
 _AROUND = {
     "when": "conditions stand around: (when <condition> (probabilistic ...))",
     "forall": "quantifiers stand around: (forall (<variables>) (probabilistic ...))",
@@ -96,12 +98,24 @@ class CostReader:
             InputError: probabilities that are constant are negative or sum to more than 1.
             UnsupportedError: an effect does more than to increase the total cost.
         """
+        pairs = self.chances(node, scope, "it costs 0")
+        return tuple((probability, self._outcome(effect, scope)) for probability, effect in pairs)
+
+    def chances(self, node: Group, scope: Scope, rest: str) -> list[tuple[Expression, Node]]:
+        """Return the pairs of a probability and an effect of `(probabilistic p1 e1 p2 e2 ...)`.
+
+        Args:
+            rest: what happens with the rest of probability 1, for the warning.
+
+        Raises:
+            InputError: probabilities that are constant are negative or sum to more than 1.
+        """
         nodes = node.items[1:]
         if not nodes or len(nodes) % 2:
             raise self.reporter.error(
                 f"expected pairs of a probability and an effect after 'probabilistic', found {len(nodes)} items", node
             )
-        branches = []
+        pairs = []
         for probability_node, effect in zip(nodes[::2], nodes[1::2], strict=True):
             probability = self.expression(probability_node, scope)
             value = constant_value(probability)
@@ -109,9 +123,9 @@ class CostReader:
                 raise self.reporter.error(
                     f"a probability must not be negative, found {_shown(value)}", probability_node
                 )
-            branches.append((probability, self._outcome(effect, scope)))
-        self._check_sum(branches, node)
-        return tuple(branches)
+            pairs.append((probability, effect))
+        self._check_sum([probability for probability, _ in pairs], node, rest)
+        return pairs
 
     def expression(self, node: Node, scope: Scope) -> Expression:
         """Return a number, a function of the parameters, or a sum, difference or product of expressions."""
@@ -151,36 +165,38 @@ class CostReader:
         if node.head == "and":
             costs = tuple(self._outcome(item, scope) for item in node.items[1:])
             return costs[0] if len(costs) == 1 else Arithmetic("+", costs) if costs else Number(Fraction(0))
-        only = "a branch of 'probabilistic' can only increase (total-cost)"
         if hint := _AROUND.get(node.head):
-            raise self.reporter.unsupported(f"{only}, found {describe(node)}; {hint}", node)
-        raise self.reporter.unsupported(f"{only}, not change facts, found {describe(node)}", node)
-
-    def _check_sum(self, branches: list[tuple[Expression, Expression]], node: Group) -> None:
-        total = Fraction(0)
-        is_constant = True
-        for probability, _ in branches:
-            value = constant_value(probability)
-            is_constant = is_constant and value is not None
-            total += value or 0
-        if total > 1 + PROBABILITY_TOLERANCE:  # those that are not constant are at least 0
-            raise self.reporter.error(f"the probabilities of this block sum to {_shown(total)}, more than 1", node)
-        if is_constant and total < 1 - PROBABILITY_TOLERANCE:
-            self.reporter.warn(
-                f"the probabilities of this block sum to {_shown(total)}; with the rest it costs 0",
+            raise self.reporter.unsupported(
+                f"a branch of 'probabilistic' that changes no facts can only increase (total-cost), found "
+                f"{describe(node)}; {hint}",
                 node,
             )
+        raise refusal(node, self.vocabulary, self.reporter)
+
+    def _check_sum(self, probabilities: Iterable[Expression], node: Group, rest: str) -> None:
+        values = [constant_value(probability) for probability in probabilities]
+        total = sum((value for value in values if value is not None), Fraction(0))
+        if total > 1 + PROBABILITY_TOLERANCE:  # those that are not constant are at least 0
+            raise self.reporter.error(f"the probabilities of this block sum to {_shown(total)}, more than 1", node)
+        if None not in values and total < 1 - PROBABILITY_TOLERANCE:
+            self.reporter.warn(f"the probabilities of this block sum to {_shown(total)}; with the rest {rest}", node)
 
 
-def constant_value(expression: Expression) -> Fraction | None:
-    """Return the value of an expression without functions, None for one with functions."""
-    return None if _has_function(expression) else evaluate(expression, {}, {})
-
-
-def _has_function(expression: Expression) -> bool:
-    if isinstance(expression, Arithmetic):
-        return any(_has_function(operand) for operand in expression.operands)
-    return isinstance(expression, FunctionTerm)
+def refusal(node: Group, vocabulary: Vocabulary, reporter: Reporter) -> Exception:
+    """Return the error that something is no effect."""
+    if not node.head:
+        return reporter.error(f"expected an effect, found {describe(node.items[0])}", node)
+    if node.head in _NUMERIC:
+        return reporter.unsupported(
+            f"numeric effects ('{node.head}') are not supported, only costs by 'increase'", node
+        )
+    if node.head == "oneof":
+        return reporter.unsupported(
+            "non-deterministic effects ('oneof') are not supported; 'probabilistic' states outcomes", node
+        )
+    if node.head in ("or", "imply", "exists", "="):
+        return reporter.error(f"'{node.head}' cannot be an effect", node)
+    return reporter.error(unknown("predicate", node.name, vocabulary.predicates), node.items[0])
 
 
 def _shown(value: Fraction) -> str:

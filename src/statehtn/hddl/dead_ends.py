@@ -85,7 +85,7 @@ def _needed_in_vain(problem: Problem) -> Iterator[tuple[Owner, Atom]]:
     """Yield the preconditions that never hold and that the initial network cannot do without."""
     domain = problem.domain
     true = {fact[0] for fact in problem.initial_state}
-    effects = (effect for action in domain.actions.values() for effect in action.effects)
+    effects = (effect for action in domain.actions.values() for effect in action.all_effects)
     true.update(effect.atom.predicate for effect in effects if effect.positive)
     lacking: dict[Owner, Atom] = {}
     owners: list[tuple[Kind, Action | Method]] = [("task", action) for action in domain.actions.values()]
@@ -157,7 +157,7 @@ def _goals_in_vain(problem: Problem) -> Iterator[Fact]:
         if not any(
             effect.positive and _can_be(effect, action, atom, problem)
             for action in problem.domain.actions.values()
-            for effect in action.effects
+            for effect in action.all_effects
         ):
             yield fact
 

@@ -196,7 +196,8 @@ class DomainReader:
         effect = fields.get(":effect")
         if effect is not None:
             reader.read(effect, scope)
-        return Action(signature.name, signature.parameters, precondition, tuple(reader.effects), tuple(reader.costs))
+        found = tuple(reader.effects), tuple(reader.costs), tuple(reader.outcomes)
+        return Action(signature.name, signature.parameters, precondition, *found)
 
     def _methods(self) -> dict[str, Method]:
         methods: dict[str, Method] = {}

@@ -1,4 +1,4 @@
-"""Effects of actions: facts that become true or false, and costs, under conditions and for all objects."""
+"""Effects of actions: facts that become true or false, and costs; by chance, under conditions and for all objects."""
 
 from __future__ import annotations
 
@@ -7,30 +7,30 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import count
 
-from statehtn.hddl.cost_reader import Branches, CostReader
-from statehtn.hddl.diagnostics import Reporter, unknown
+from statehtn.hddl.cost_reader import Branches, CostReader, refusal
+from statehtn.hddl.diagnostics import Reporter
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.formula_reader import FormulaReader
 from statehtn.hddl.typed_lists import read_parameters
 from statehtn.hddl.vocabulary import Scope, Vocabulary, scope_of
-from statehtn.model import TRUE, And, Atom, CostBlock, Effect, Formula, Number, Parameter
+from statehtn.model import TRUE, And, Atom, CostBlock, Effect, Formula, Number, Outcome, OutcomeBlock, Parameter
 from statehtn.model.formula import predicates
 from statehtn.model.hidden import ONLY_COSTS
-
-_NUMERIC = frozenset({"decrease", "assign", "scale-up", "scale-down"})
 
 
 @dataclass(slots=True)
 class EffectReader:
-    """Collects the effects and cost blocks of one action."""
+    """Collects the effects, cost blocks and outcomes of one action, or of one of its outcomes."""
 
     vocabulary: Vocabulary
     reporter: Reporter
     effects: list[Effect] = field(default_factory=list)
     costs: list[CostBlock] = field(default_factory=list)
+    outcomes: list[OutcomeBlock] = field(default_factory=list)
+    is_outcome: bool = False
 
     def read(self, node: Node, scope: Scope, condition: Formula = TRUE, parameters: tuple[Parameter, ...] = ()) -> None:
-        """Add the effects and costs of a node.
+        """Add the effects, costs and outcomes of a node.
 
         Args:
             scope: all variables that are declared here.
@@ -39,7 +39,7 @@ class EffectReader:
 
         Raises:
             InputError: it is malformed, or a name is unknown.
-            UnsupportedError: it changes facts by chance, or numbers other than the total cost.
+            UnsupportedError: it changes numbers other than the total cost, or has outcomes inside of an outcome.
         """
         if isinstance(node, Word):
             raise self.reporter.error(f"expected an effect in parentheses, found {describe(node)}", node)
@@ -62,11 +62,13 @@ class EffectReader:
             case "increase":
                 cost = self._cost_reader().increase(node, scope)
                 self._add_cost(((Number(Fraction(1)), cost),), condition, parameters, node)
+            case "probabilistic" if self._changes_facts(node):
+                self._outcomes(node, scope, condition, parameters)
             case "probabilistic":
                 branches = self._cost_reader().probabilistic(node, scope)
                 self._add_cost(branches, condition, parameters, node)
             case _:
-                raise self._refusal(node)
+                raise refusal(node, self.vocabulary, self.reporter)
 
     def _add_effect(self, effect: Effect, node: Group) -> None:
         hidden = self.vocabulary.hidden
@@ -77,6 +79,41 @@ class EffectReader:
             if predicate in hidden:
                 raise self.reporter.unsupported(f"this effect depends on a fact of '{predicate}'; {ONLY_COSTS}", node)
         self.effects.append(effect)
+
+    def _outcomes(self, node: Group, scope: Scope, condition: Formula, parameters: tuple[Parameter, ...]) -> None:
+        """Add a block of outcomes that change facts; what costs they have stays with them."""
+        if self.is_outcome:
+            raise self.reporter.unsupported(
+                "outcomes inside of an outcome are not supported; write the products of the probabilities in one block",
+                node,
+            )
+        for predicate in predicates(condition):
+            if predicate in self.vocabulary.hidden:
+                raise self.reporter.unsupported(f"these outcomes depend on a fact of '{predicate}'; {ONLY_COSTS}", node)
+        found = []
+        for probability, effect in self._cost_reader().chances(node, scope, "nothing happens"):
+            reader = EffectReader(self.vocabulary, self.reporter, is_outcome=True)
+            reader.read(effect, scope)
+            found.append(Outcome(probability, tuple(reader.effects), tuple(reader.costs)))
+        place = self.reporter.source.place(node.index)
+        self.outcomes.append(OutcomeBlock(tuple(found), condition, parameters, place))
+
+    def _changes_facts(self, node: Node) -> bool:
+        """Tell whether there is a literal in an effect."""
+        if isinstance(node, Word) or not node.items:
+            return False
+        match node.head:
+            case "and":
+                return any(map(self._changes_facts, node.items[1:]))
+            case "not":
+                return True
+            case _ if node.head != "forall" and self.vocabulary.predicate(node.name):
+                return True
+            case "when" | "forall":
+                return any(map(self._changes_facts, node.items[2:]))
+            case "probabilistic":
+                return any(map(self._changes_facts, node.items[2::2]))
+        return False
 
     def _add_cost(self, branches: Branches, condition: Formula, parameters: tuple[Parameter, ...], node: Group) -> None:
         place = self.reporter.source.place(node.index)
@@ -103,25 +140,12 @@ class EffectReader:
             raise self.reporter.error(f"expected '(<predicate> ...)', found {describe(node)}", node)
         signature = self.vocabulary.predicate(node.name)
         if signature is None:
-            raise self._refusal(node)
+            raise refusal(node, self.vocabulary, self.reporter)
         terms = self.vocabulary.terms("predicate", signature, node, node.items[1:], scope, self.reporter)
         return Atom(signature.name, terms)
 
     def _cost_reader(self) -> CostReader:
         return CostReader(self.vocabulary, self.reporter)
-
-    def _refusal(self, node: Group) -> Exception:
-        if not node.head:
-            return self.reporter.error(f"expected an effect, found {describe(node.items[0])}", node)
-        if node.head in _NUMERIC:
-            return self.reporter.unsupported(
-                f"numeric effects ('{node.head}') are not supported, only costs by 'increase'", node
-            )
-        if node.head == "oneof":
-            return self.reporter.unsupported("non-deterministic effects ('oneof') are not supported", node)
-        if node.head in ("or", "imply", "exists", "="):
-            return self.reporter.error(f"'{node.head}' cannot be an effect", node)
-        return self.reporter.error(unknown("predicate", node.name, self.vocabulary.predicates), node.items[0])
 
 
 def _fresh_names(declared: Group, node: Group, scope: Scope) -> dict[str, str]:

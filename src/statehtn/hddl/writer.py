@@ -27,6 +27,7 @@ from statehtn.model import (
     Number,
     OfType,
     Or,
+    OutcomeBlock,
     Parameter,
     Problem,
     Signature,
@@ -47,7 +48,6 @@ REQUIREMENTS = (
     "conditional-effects",
     "method-preconditions",
 )
-COST_REQUIREMENTS = ("action-costs", "probabilistic-effects")
 
 
 def write_hddl(problem: Problem) -> tuple[str, str]:
@@ -63,7 +63,9 @@ def write_hddl(problem: Problem) -> tuple[str, str]:
 
 
 def _domain(domain: Domain) -> Iterator[str]:
-    costs = () if domain.has_unit_costs else COST_REQUIREMENTS
+    costs = [] if domain.has_unit_costs else ["action-costs"]
+    if domain.has_outcomes or not domain.has_unit_costs:
+        costs.append("probabilistic-effects")
     yield f"(define (domain {domain.name})"
     yield f"  (:requirements {' '.join(f':{word}' for word in (*REQUIREMENTS, *costs))})"
     yield from _section("types", _types(domain.types))
@@ -139,7 +141,7 @@ def _parameters(parameters: Iterable[Parameter]) -> str:
 
 def _action(action: Action) -> Iterator[str]:
     costs = [_cost_block(block, action) for given in action.costs for block in given.by_conditions]
-    effects = [_effect(effect) for effect in action.effects] + costs
+    effects = [*map(_effect, action.effects), *costs, *(_outcome_block(block, action) for block in action.outcomes)]
     yield f"  (:action {action.name}"
     yield f"    :parameters ({_parameters(action.parameters)})"
     yield f"    :precondition {formula_text(action.precondition)}"
@@ -173,6 +175,15 @@ def _cost_block(block: CostBlock, action: Action) -> str:
         case branches:
             text = f"(probabilistic {' '.join(f'{expression_text(p)} {_increase(cost)}' for p, cost in branches)})"
     return _conditional(text, block.condition, block.parameters)
+
+
+def _outcome_block(block: OutcomeBlock, action: Action) -> str:
+    branches = []
+    for outcome in block.outcomes:
+        costs = (_cost_block(part, action) for given in outcome.costs for part in given.by_conditions)
+        effects = (*map(_effect, outcome.effects), *costs)
+        branches.append(f"{expression_text(outcome.probability)} ({' '.join(('and', *effects))})")
+    return _conditional(f"(probabilistic {' '.join(branches)})", block.condition, block.parameters)
 
 
 def _increase(cost: Expression) -> str:

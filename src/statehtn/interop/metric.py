@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from statehtn.model import Plan, Problem
-from statehtn.model.cost.ground_cost import evaluate
+from statehtn.model.cost.expressions import evaluate
 
 
 def metric_value(problem: Problem, plan: Plan) -> int | Fraction:

@@ -105,6 +105,10 @@ def _parameters(parameters: Iterable[Parameter], things: Things) -> OrderedDict[
 
 
 def _action(name: str, action: Action, things: Things) -> InstantaneousAction:
+    if action.outcomes:
+        raise UnsupportedError(
+            "it changes facts by chance, and actions of unified-planning have one effect", action.outcomes[0].place
+        )
     up = InstantaneousAction(name, _parameters(action.parameters, things))
     scope = things.scope(action.parameters, up.parameters)
     for condition in conjuncts(action.precondition):

@@ -54,7 +54,7 @@ def variables(problem: Problem) -> Iterator[Parameter]:
     for action in domain.actions.values():
         yield from action.parameters
         yield from _bound(action.precondition)
-        for effect in action.effects:
+        for effect in action.all_effects:
             yield from effect.parameters
             yield from _bound(effect.condition)
     for method in domain.methods.values():

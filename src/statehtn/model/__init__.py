@@ -6,6 +6,7 @@ from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.sum import CostSum
 from statehtn.model.formula import TRUE, And, Atom, Equals, Exists, Forall, Formula, Not, OfType, Or
 from statehtn.model.ground import GroundAction, GroundCostPart, GroundEffect, GroundMethod, GroundProblem
+from statehtn.model.outcome import Outcome, OutcomeBlock
 from statehtn.model.plan import Decomposition, Plan, Step
 from statehtn.model.problem import Action, Domain, Effect, Fact, Method, Problem, Signature, Subtask, TaskNetwork
 from statehtn.model.types import Parameter, TypeHierarchy
@@ -40,6 +41,8 @@ __all__ = [
     "Number",
     "OfType",
     "Or",
+    "Outcome",
+    "OutcomeBlock",
     "Parameter",
     "Plan",
     "Problem",

@@ -34,7 +34,7 @@ def _users(problem: Problem) -> Iterator[tuple[str, str]]:
     for action in problem.domain.actions.values():
         name = f"action '{action.name}'"
         yield from ((f"the precondition of {name} reads", found) for found in predicates(action.precondition))
-        for effect in action.effects:
+        for effect in action.all_effects:
             yield f"an effect of {name} changes", effect.atom.predicate
             yield from ((f"an effect of {name} depends on", found) for found in predicates(effect.condition))
     for method in problem.domain.methods.values():

@@ -6,11 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from graphlib import TopologicalSorter
+from itertools import chain
 
 from statehtn.model.chance import Chance, Scenario, scenario_count, scenarios_of
 from statehtn.model.cost.blocks import CostBlock, FunctionValues
-from statehtn.model.formula import TRUE, Atom, Formula
+from statehtn.model.effect import Effect as Effect
+from statehtn.model.formula import TRUE, Formula
 from statehtn.model.formula import Fact as Fact
+from statehtn.model.outcome import OutcomeBlock
 from statehtn.model.types import Parameter, TypeHierarchy
 
 
@@ -22,28 +25,37 @@ class Signature:
     parameters: tuple[Parameter, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Effect:
-    """One literal that an action makes true or false, for all bindings of `parameters` under which `condition` holds.
-
-    Conditions are evaluated in the state before the action; what is added wins over what is deleted.
-    """
-
-    atom: Atom
-    positive: bool = True
-    condition: Formula = TRUE
-    parameters: tuple[Parameter, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Action:
-    """A primitive task: a cost-variable operator whose effect is certain (paper Definition 4.4 with one effect)."""
+    """A primitive task: a cost-variable operator (paper Definition 4.4).
+
+    Args:
+        name: the action's name.
+        parameters: its variables.
+        precondition: what must hold before it.
+        effects: what it does for certain.
+        costs: what it costs in any case, in independent parts.
+        outcomes: what it does by chance, in independent blocks.
+    """
 
     name: str
     parameters: tuple[Parameter, ...] = ()
     precondition: Formula = TRUE
     effects: tuple[Effect, ...] = ()
     costs: tuple[CostBlock, ...] = ()
+    outcomes: tuple[OutcomeBlock, ...] = ()
+
+    @cached_property
+    def all_effects(self) -> tuple[Effect, ...]:
+        """What it does for certain, then what it does in any of its outcomes, under the conditions of their blocks."""
+        chosen = (block.effects_of(outcome) for block in self.outcomes for outcome in block.outcomes)
+        return (*self.effects, *chain.from_iterable(chosen)) if self.outcomes else self.effects
+
+    @cached_property
+    def all_costs(self) -> tuple[CostBlock, ...]:
+        """What it costs in any case, then what it costs in any of its outcomes, under the conditions of their blocks."""
+        chosen = (block.costs_of(outcome) for block in self.outcomes for outcome in block.outcomes)
+        return (*self.costs, *chain.from_iterable(chosen)) if self.outcomes else self.costs
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +118,12 @@ class Domain:
     @cached_property
     def has_unit_costs(self) -> bool:
         """True where no action states a cost: then every action costs 1."""
-        return not any(action.costs for action in self.actions.values())
+        return not any(action.all_costs for action in self.actions.values())
+
+    @cached_property
+    def has_outcomes(self) -> bool:
+        """True where an action changes facts by chance."""
+        return any(action.outcomes for action in self.actions.values())
 
     def __hash__(self) -> int:
         return hash((self.name, frozenset(self.actions), frozenset(self.methods), frozenset(self.tasks)))

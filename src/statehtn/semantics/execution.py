@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from statehtn.errors import UnsupportedError
 from statehtn.model.cost.ground_cost import action_law, is_unconditional
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.formula import TRUE, predicates
@@ -92,6 +93,10 @@ class _LiftedAction:
     """An action with its formulas compiled."""
 
     def __init__(self, action: Action, world: World) -> None:
+        for block in action.outcomes:
+            raise UnsupportedError(
+                f"action '{action.name}' changes facts by chance, which plans cannot answer", block.place
+            )
         self.action = action
         self.world = world
         self.precondition = Condition(action.precondition, world)

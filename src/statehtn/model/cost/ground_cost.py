@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError, StateHtnError
-from statehtn.model.cost.blocks import Arithmetic, CostBlock, Expression, FunctionTerm, FunctionValues, Number
+from statehtn.model.cost.blocks import CostBlock, FunctionValues, Number
 from statehtn.model.cost.distribution import PROBABILITY_TOLERANCE, CostDistribution
+from statehtn.model.cost.expressions import evaluate
 from statehtn.model.cost.law import CostLaw, is_of_scipy
 from statehtn.model.cost.scenario_cost import by_scenario
 from statehtn.model.cost.sum import CostSum
-from statehtn.model.cost.unknown import MissingNumber
 from statehtn.model.formula import TRUE, Fact
 
 if TYPE_CHECKING:
@@ -44,36 +44,6 @@ FREE: ExactLaw = {Fraction(0): Fraction(1)}
 
 class CostWarning(UserWarning):
     """A cost is defined, but perhaps not as it was meant."""
-
-
-def evaluate(expression: Expression, bindings: Mapping[str, str], values: FunctionValues) -> Fraction:
-    """Return the exact value of a cost or probability expression.
-
-    Args:
-        expression: numbers, functions and sums, differences and products of them.
-        bindings: the object of every variable in the expression.
-        values: the function values of `:init`.
-
-    Raises:
-        MissingNumber: `:init` does not define the value of a function that is needed.
-    """
-    match expression:
-        case Number(value):
-            return value
-        case FunctionTerm(function, arguments):
-            key = (function, *(bindings.get(term, term) for term in arguments))
-            if key not in values:
-                term = f"({' '.join(key)})"
-                raise MissingNumber(f"the value of {term} is not defined; add (= {term} <number>) to :init")
-            return values[key]
-        case Arithmetic("+", operands):
-            return sum((evaluate(operand, bindings, values) for operand in operands), Fraction(0))
-        case Arithmetic("*", operands):
-            return math.prod((evaluate(operand, bindings, values) for operand in operands), start=Fraction(1))
-        case Arithmetic("-", operands) if operands:
-            first, *rest = (evaluate(operand, bindings, values) for operand in operands)
-            return first - sum(rest, Fraction(0)) if rest else -first
-    raise InputError(f"a cost is a number, a function of the parameters, or + - * of them, found {expression}")
 
 
 def block_law(
