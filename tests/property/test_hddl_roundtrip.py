@@ -10,7 +10,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from statehtn.hddl import read_hddl_text, write_hddl
-from statehtn.hddl.cost_reader import constant_value
 from statehtn.model import (
     TRUE,
     Action,
@@ -31,6 +30,8 @@ from statehtn.model import (
     Number,
     OfType,
     Or,
+    Outcome,
+    OutcomeBlock,
     Parameter,
     Problem,
     Signature,
@@ -38,6 +39,7 @@ from statehtn.model import (
     TaskNetwork,
     TypeHierarchy,
 )
+from statehtn.model.cost.expressions import constant_value
 
 KINDS = ("t0", "t1", "t2", "t3")
 CONSTANTS = ("c0", "t1")  # some have the name of a type, a predicate or a task
@@ -143,14 +145,20 @@ def costs(draw: st.DrawFn, names: Names) -> Expression:
 
 
 @st.composite
+def probabilities_of_branches(draw: st.DrawFn, names: Names) -> list[Expression]:
+    weights = draw(st.lists(st.integers(1, 9), min_size=1, max_size=3))
+    probabilities: list[Expression] = [Number(Fraction(weight, sum(weights))) for weight in weights]
+    if draw(st.booleans()) and (found := draw(arguments(names, names.functions))):
+        probabilities = [FunctionTerm(found[0], found[1:]), *probabilities[1:]]
+    return probabilities
+
+
+@st.composite
 def cost_blocks(draw: st.DrawFn, names: Names) -> CostBlock:
     bound = draw(parameters("b", 1))
     inner = names.inside(bound)
     condition = draw(st.one_of(st.just(TRUE), formulas(inner, 1)))
-    weights = draw(st.lists(st.integers(1, 9), min_size=1, max_size=3))
-    probabilities: list[Expression] = [Number(Fraction(weight, sum(weights))) for weight in weights]
-    if draw(st.booleans()) and (found := draw(arguments(inner, inner.functions))):
-        probabilities = [FunctionTerm(found[0], found[1:]), *probabilities[1:]]
+    probabilities = draw(probabilities_of_branches(inner))
     return CostBlock(tuple((probability, draw(costs(inner))) for probability in probabilities), condition, bound)
 
 
@@ -162,6 +170,20 @@ def effects(draw: st.DrawFn, names: Names) -> list[Effect]:
         return []
     condition = draw(st.one_of(st.just(TRUE), formulas(names.inside(bound), 1)))
     return [Effect(Atom(found[0], found[1:]), draw(st.booleans()), condition, bound)]
+
+
+@st.composite
+def outcome_blocks(draw: st.DrawFn, names: Names) -> list[OutcomeBlock]:
+    """Draw a block of outcomes; nothing where none of them would change a fact."""
+    bound = draw(parameters("k", 1))
+    inner = names.inside(bound)
+    condition = draw(st.one_of(st.just(TRUE), formulas(inner, 1)))
+    outcomes = []
+    for probability in draw(probabilities_of_branches(inner)):
+        changes = [effect for some in draw(st.lists(effects(inner), max_size=2)) for effect in some]
+        outcomes.append(Outcome(probability, tuple(changes), tuple(draw(st.lists(cost_blocks(inner), max_size=1)))))
+    changed = any(outcome.effects for outcome in outcomes)
+    return [OutcomeBlock(tuple(outcomes), condition, bound)] if changed else []
 
 
 @st.composite
@@ -188,7 +210,8 @@ def domains(draw: st.DrawFn) -> tuple[Domain, Names]:
         inner = names.inside(signature.parameters)
         drawn = [effect for some in draw(st.lists(effects(inner), max_size=3)) for effect in some]
         blocks = tuple(draw(st.lists(cost_blocks(inner), max_size=2)))
-        actions[name] = Action(name, signature.parameters, draw(formulas(inner)), tuple(drawn), blocks)
+        chosen = tuple(block for some in draw(st.lists(outcome_blocks(inner), max_size=2)) for block in some)
+        actions[name] = Action(name, signature.parameters, draw(formulas(inner)), tuple(drawn), blocks, chosen)
     methods = {}
     for index in range(draw(st.integers(0, 2))):
         bound = draw(parameters("m"))
@@ -219,7 +242,9 @@ def test_reading_what_was_written_gives_the_same_problem(problem: Problem) -> No
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         again = read_hddl_text(domain, text)
-    told = ("leads to no plan", "there is no plan") + (() if problem_is_complete(problem) else ("the rest it costs 0",))
+    told = ("leads to no plan", "there is no plan")
+    if not problem_is_complete(problem):
+        told += ("the rest it costs 0", "the rest nothing happens")
     assert [one for one in caught if not str(one.message).endswith(told)] == []
     assert again == problem
     assert write_hddl(again) == (domain, text)
@@ -227,6 +252,7 @@ def test_reading_what_was_written_gives_the_same_problem(problem: Problem) -> No
 
 def problem_is_complete(problem: Problem) -> bool:
     """Tell whether no block leaves some probability over, which would be a warning."""
-    blocks = [block for action in problem.domain.actions.values() for block in action.costs]
-    sums = [[constant_value(probability) for probability, _ in block.branches] for block in blocks]
+    actions = problem.domain.actions.values()
+    sums = [[constant_value(probability) for probability, _ in block.branches] for a in actions for block in a.all_costs]
+    sums += [[constant_value(one.probability) for one in block.outcomes] for a in actions for block in a.outcomes]
     return all(None in found or sum(value for value in found if value is not None) == 1 for found in sums)

@@ -25,7 +25,8 @@ from statehtn.model import (
     Parameter,
     Problem,
 )
-from statehtn.model.cost.ground_cost import CostWarning, action_law, block_law, evaluate
+from statehtn.model.cost.expressions import evaluate
+from statehtn.model.cost.ground_cost import CostWarning, action_law, block_law
 from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
 
 VALUES = {("slow", "a", "b"): Fraction(6), ("fast", "a", "b"): Fraction(2), ("jam",): Fraction(1, 4)}

@@ -19,7 +19,6 @@ from statehtn.model import (
     Atom,
     CostBlock,
     Effect,
-    FunctionTerm,
     Number,
     Outcome,
     OutcomeBlock,
@@ -189,7 +188,8 @@ def test_text_that_is_written_is_read_again() -> None:
 
 def test_an_effect_that_may_come_makes_a_goal_possible() -> None:
     text = PROBLEM.replace("(:init", "(:goal (held a)) (:init")
-    domain = """(define (domain d) (:types block) (:predicates (held ?b - block)) (:functions (p-slip ?b - block) - number)
+    domain = """(define (domain d) (:types block)
+  (:predicates (held ?b - block)) (:functions (p-slip ?b - block) - number)
   (:action grasp :parameters (?b - block) :effect (probabilistic 0.5 (held ?b) 0.5 ())))"""
     with warnings.catch_warnings():
         warnings.simplefilter("error", HddlWarning)

@@ -60,7 +60,7 @@ class OutcomeBlock:
         return (*self.outcomes, Outcome(rest))
 
     def effects_of(self, outcome: Outcome) -> tuple[Effect, ...]:
-        """Return the effects of an outcome as those of the action: with the block's condition and variables in front."""
+        """Return effects of an outcome as those of the action, under the condition and for the variables around."""
         return tuple(
             replace(
                 effect,
@@ -71,7 +71,7 @@ class OutcomeBlock:
         )
 
     def costs_of(self, outcome: Outcome) -> tuple[CostBlock, ...]:
-        """Return the costs of an outcome as those of the action: with the block's condition and variables in front."""
+        """Return costs of an outcome as those of the action, under the condition and for the variables around."""
         return tuple(
             replace(
                 block,

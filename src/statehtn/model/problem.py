@@ -47,13 +47,13 @@ class Action:
 
     @cached_property
     def all_effects(self) -> tuple[Effect, ...]:
-        """What it does for certain, then what it does in any of its outcomes, under the conditions of their blocks."""
+        """What it does for certain, then what it does in its outcomes, under the conditions of their blocks."""
         chosen = (block.effects_of(outcome) for block in self.outcomes for outcome in block.outcomes)
         return (*self.effects, *chain.from_iterable(chosen)) if self.outcomes else self.effects
 
     @cached_property
     def all_costs(self) -> tuple[CostBlock, ...]:
-        """What it costs in any case, then what it costs in any of its outcomes, under the conditions of their blocks."""
+        """What it costs in any case, then what it costs in its outcomes, under the conditions of their blocks."""
         chosen = (block.costs_of(outcome) for block in self.outcomes for outcome in block.outcomes)
         return (*self.costs, *chain.from_iterable(chosen)) if self.outcomes else self.costs
 
