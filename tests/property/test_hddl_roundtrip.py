@@ -242,7 +242,7 @@ def test_reading_what_was_written_gives_the_same_problem(problem: Problem) -> No
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         again = read_hddl_text(domain, text)
-    told = ("leads to no plan", "there is no plan")
+    told: tuple[str, ...] = ("leads to no plan", "there is no plan")
     if not problem_is_complete(problem):
         told += ("the rest it costs 0", "the rest nothing happens")
     assert [one for one in caught if not str(one.message).endswith(told)] == []
@@ -253,6 +253,7 @@ def test_reading_what_was_written_gives_the_same_problem(problem: Problem) -> No
 def problem_is_complete(problem: Problem) -> bool:
     """Tell whether no block leaves some probability over, which would be a warning."""
     actions = problem.domain.actions.values()
-    sums = [[constant_value(probability) for probability, _ in block.branches] for a in actions for block in a.all_costs]
+    costs = [block for action in actions for block in action.all_costs]
+    sums = [[constant_value(probability) for probability, _ in block.branches] for block in costs]
     sums += [[constant_value(one.probability) for one in block.outcomes] for a in actions for block in a.outcomes]
     return all(None in found or sum(value for value in found if value is not None) == 1 for found in sums)

@@ -45,6 +45,15 @@ def test_our_own_domains_have_none(domain: Path) -> None:
     assert check(domain) == []
 
 
+def test_what_stands_in_outcomes_is_used() -> None:
+    mutated("(:task go", "(:functions (chance ?x - t) - number)\n  (:task go")
+    text = Path("domain.hddl").read_text(encoding="utf-8")
+    outcomes = "(probabilistic (chance ?x) (and (p ?x) (q)) (- 1 (chance ?x)) ())"
+    Path("domain.hddl").write_text(text.replace("(and (p ?x) (q))", outcomes), encoding="utf-8")
+    assert check("domain.hddl") == []
+    assert [finding.code for finding in check("domain.hddl", "problem.hddl")] == ["no-value"]
+
+
 def test_a_finding_says_what_where_and_what_to_do(capsys: pytest.CaptureFixture[str]) -> None:
     mutated(":precondition (q)", ":precondition (and (q) (not (q)))")
     (finding,) = statehtn.check("domain.hddl")

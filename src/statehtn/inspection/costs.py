@@ -12,9 +12,9 @@ from statehtn.inspection.subject import Subject
 def check_costs(subject: Subject) -> Iterator[Finding]:
     """Yield the actions without a cost where others have one, and the functions that a problem gives no value."""
     actions = subject.domain.actions.values()
-    priced = [action for action in actions if action.costs]
+    priced = [action for action in actions if action.all_costs]
     for action in actions if priced else ():
-        if not action.costs:
+        if not action.all_costs:
             message = f"action '{action.name}' has no cost, and others do ('{priced[0].name}', say): it costs 0"
             advice = "add (increase (total-cost) ...) to its effect; (increase (total-cost) 0) if it costs nothing"
             place = subject.places.declared("task", action.name)
@@ -24,20 +24,18 @@ def check_costs(subject: Subject) -> Iterator[Finding]:
 
 
 def _without_values(subject: Subject) -> Iterator[Finding]:
-    """Yield the functions of costs of which the problem gives no value at all; of others grounding tells."""
+    """Yield the functions without any value that a cost or a probability needs; of others grounding tells."""
     assert subject.problem is not None
     given = {key[0] for key in subject.problem.function_values}
     users = {
         name: action.name
         for action in subject.domain.actions.values()
-        for block in action.costs
-        for branch in block.branches
-        for part in branch
-        for name in functions_in(part)
+        for expression in action.expressions
+        for name in functions_in(expression)
     }
     for name, user in users.items():
         if name not in given:
-            message = f"':init' gives no value of function '{name}', which the cost of action '{user}' needs"
+            message = f"':init' gives no value of function '{name}', which action '{user}' needs"
             place = subject.places.declared("function", name)
             advice = f"write (= ({name} ...) <number>) in ':init' for the objects that need it"
             yield Finding(Level.NOTE, place, message, advice, "no-value", ("function", name))

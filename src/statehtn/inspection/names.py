@@ -42,9 +42,10 @@ def _predicates(subject: Subject) -> Iterator[Finding]:
     domain, problem = subject.domain, subject.problem
     read = {name for _, schema in subject.schemas for name in predicates(whole_condition(schema))}
     for action in domain.actions.values():
-        conditions = (*(effect.condition for effect in action.effects), *(block.condition for block in action.costs))
+        conditions = [effect.condition for effect in action.all_effects]
+        conditions += [block.condition for block in action.all_costs]
         read.update(name for condition in conditions for name in predicates(condition))
-    changed = {effect.atom.predicate for action in domain.actions.values() for effect in action.effects}
+    changed = {effect.atom.predicate for action in domain.actions.values() for effect in action.all_effects}
     if problem is not None:
         read.update(predicates(problem.goal))
     for name in domain.predicates:
@@ -62,8 +63,8 @@ def _predicates(subject: Subject) -> Iterator[Finding]:
 
 def functions_used(subject: Subject) -> set[str]:
     """Return the functions in costs and probabilities."""
-    blocks = (block for action in subject.domain.actions.values() for block in action.costs)
-    return {name for block in blocks for branch in block.branches for part in branch for name in functions_in(part)}
+    actions = subject.domain.actions.values()
+    return {name for action in actions for expression in action.expressions for name in functions_in(expression)}
 
 
 def functions_in(expression: Expression) -> Iterator[str]:
@@ -99,9 +100,9 @@ def _parameters(subject: Subject) -> Iterator[Parameter]:
         yield from schema.parameters
         yield from _quantified(whole_condition(schema))
     for action in domain.actions.values():
-        for effect in action.effects:
+        for effect in action.all_effects:
             yield from (*effect.parameters, *_quantified(effect.condition))
-        for block in action.costs:
+        for block in action.all_costs:
             yield from (*block.parameters, *_quantified(block.condition))
     if problem is not None:
         yield from problem.parameters

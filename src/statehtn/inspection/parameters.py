@@ -39,11 +39,11 @@ def _used(schema: Action | Method) -> set[str]:
         found.update(schema.arguments, free_variables(schema.network.constraints))
         found.update(term for subtask in schema.network.subtasks for term in subtask.arguments)
         return found
-    for effect in schema.effects:
+    for effect in schema.all_effects:
         found.update((*effect.atom.arguments, *free_variables(effect.condition)))
-    for block in schema.costs:
+    for block in schema.all_costs:
         found.update(free_variables(block.condition))
-        found.update(term for branch in block.branches for part in branch for term in _terms(part))
+    found.update(term for expression in schema.expressions for term in _terms(expression))
     return found
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from graphlib import TopologicalSorter
 from itertools import chain
 
 from statehtn.model.chance import Chance, Scenario, scenario_count, scenarios_of
-from statehtn.model.cost.blocks import CostBlock, FunctionValues
+from statehtn.model.cost.blocks import CostBlock, Expression, FunctionValues
 from statehtn.model.effect import Effect as Effect
 from statehtn.model.formula import TRUE, Formula
 from statehtn.model.formula import Fact as Fact
@@ -56,6 +56,12 @@ class Action:
         """What it costs in any case, then what it costs in its outcomes, under the conditions of their blocks."""
         chosen = (block.costs_of(outcome) for block in self.outcomes for outcome in block.outcomes)
         return (*self.costs, *chain.from_iterable(chosen)) if self.outcomes else self.costs
+
+    @property
+    def expressions(self) -> Iterator[Expression]:
+        """The expressions of its costs and of all probabilities."""
+        yield from (expression for block in self.all_costs for branch in block.branches for expression in branch)
+        yield from (outcome.probability for block in self.outcomes for outcome in block.outcomes)
 
 
 @dataclass(frozen=True, slots=True)
