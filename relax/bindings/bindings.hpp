@@ -13,5 +13,6 @@ void bind_laws(nanobind::module_& module);
 void bind_policy_space(nanobind::module_& module);
 void bind_valuations(nanobind::module_& module);
 void bind_scenarios(nanobind::module_& module);
+void bind_policies(nanobind::module_& module);
 
 #endif

@@ -11,5 +11,6 @@ NB_MODULE(_relax, module) {
     bind_laws(module);
     bind_scenarios(module);
     bind_label_search(module);
+    bind_policies(module);
     bind_policy_space(module);
 }

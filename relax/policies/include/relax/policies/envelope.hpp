@@ -1,0 +1,108 @@
+#ifndef RELAX_POLICIES_ENVELOPE_HPP
+#define RELAX_POLICIES_ENVELOPE_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "relax/base/flat_array.hpp"
+#include "relax/policies/decision_graph.hpp"
+#include "relax/policies/recursion.hpp"
+
+namespace relax {
+
+// What nodes outside an envelope are worth.
+enum class Outside : std::uint8_t {
+    Lower,    // their lower worths, so that what comes of it is a lower worth, too
+    Stopped,  // what it is worth to stop there, so that a policy of the envelope is one of the whole graph
+    Reached,  // nothing at all (in the unit of a logarithm, -infinity), but kNever where nothing can be reached
+};
+
+// Some expanded nodes, and a policy on them with what its decisions make them worth. Members have places: their numbers
+// in the order in which they were given, best with successors first.
+class Envelope {
+public:
+    explicit Envelope(const DecisionGraph& graph) : graph_(graph) {}
+
+    // Take other members, none of them done, with their choices in the graph.
+    void assign(std::span<const PolicyNodeId> members, Outside outside);
+    // The same members, as if stopping anywhere were worth so much.
+    void set_outside(Outside outside) { outside_ = outside; }
+    Outside outside() const { return outside_; }
+    void set_stops(double worth) { stops_.assign(size(), worth); }
+    void restore_stops();
+
+    const DecisionGraph& graph() const { return graph_; }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(members_.size()); }
+    PolicyNodeId node(std::uint32_t place) const { return members_[place]; }
+    // At least `size()` for nodes outside.
+    std::uint32_t place(PolicyNodeId node) const { return node < places_.size() ? places_[node] : kOutside; }
+
+    double worth(std::uint32_t place) const { return worths_[place]; }
+    void set_worth(std::uint32_t place, double worth) { worths_[place] = worth; }
+    double stop(std::uint32_t place) const { return stops_[place]; }
+    DecisionId choice(std::uint32_t place) const { return choices_[place]; }
+    void choose(std::uint32_t place, DecisionId decision) { choices_[place] = decision; }
+
+    double worth_of(PolicyNodeId node) const {
+        const std::uint32_t at = place(node);
+        return at < worths_.size() ? worths_[at] : worth_outside(node);
+    }
+    double worth_outside(PolicyNodeId node) const {
+        switch (outside_) {
+            case Outside::Lower:
+                return graph_[node].lower;
+            case Outside::Stopped:
+                return graph_[node].stop;
+            default:
+                return graph_[node].lower == kNever ? kNever : -kNever;
+        }
+    }
+    // Of a decision, and of stopping.
+    double worth_by(std::uint32_t place, Recursion kind, DecisionId decision) const {
+        return decision == kStop
+                   ? stops_[place]
+                   : worth_of_decision(graph_, kind, decision, [this](PolicyNodeId node) { return worth_of(node); });
+    }
+
+    // Decisions that are not to be taken.
+    void bar(std::uint32_t place, DecisionId decision);
+    bool is_barred(std::uint32_t place, DecisionId decision) const {
+        return !barred_.empty() && barred_[first_[place] + (decision - graph_[members_[place]].first)];
+    }
+
+    // The places to which the choice leads, as StrongComponents takes them.
+    class Row {
+    public:
+        Row(const Envelope& envelope, std::span<const PolicyNodeId> nodes) : envelope_(envelope), nodes_(nodes) {}
+        std::size_t size() const { return nodes_.size(); }
+        std::uint32_t operator[](std::size_t at) const { return envelope_.place(nodes_[at]); }
+
+    private:
+        const Envelope& envelope_;
+        std::span<const PolicyNodeId> nodes_;
+    };
+    Row next(std::uint32_t place) const { return {*this, successors(choices_[place])}; }
+    std::span<const PolicyNodeId> successors(DecisionId decision) const {
+        return decision == kStop ? std::span<const PolicyNodeId>{} : graph_.successors(decision);
+    }
+
+private:
+    static constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
+
+    const DecisionGraph& graph_;
+    Outside outside_ = Outside::Lower;
+    FlatArray<std::uint32_t> places_;  // by node
+    std::vector<PolicyNodeId> members_;
+    std::vector<double> worths_;
+    std::vector<double> stops_;
+    std::vector<DecisionId> choices_;
+    std::vector<bool> barred_;  // by decision of a member; empty while none is
+    std::vector<std::uint32_t> first_;
+};
+
+}  // namespace relax
+
+#endif

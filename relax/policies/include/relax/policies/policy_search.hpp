@@ -1,0 +1,112 @@
+#ifndef RELAX_POLICIES_POLICY_SEARCH_HPP
+#define RELAX_POLICIES_POLICY_SEARCH_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "relax/base/limits.hpp"
+#include "relax/policies/decision_graph.hpp"
+#include "relax/policies/decision_source.hpp"
+#include "relax/policies/envelope.hpp"
+#include "relax/policies/policy_iteration.hpp"
+#include "relax/policies/recursion.hpp"
+
+namespace relax {
+
+struct PolicySearchOptions {
+    Recursion recursion = Recursion::Expected;
+    double precision = 1e-6;  // of the worth: upper and lower worth may differ by so much of the larger, or of 1
+    double unit = 1;          // by which worths are multiplied to be values, for the precision
+};
+
+struct PolicyStatistics {
+    std::size_t expanded = 0;
+    std::size_t generated = 0;
+    std::size_t evaluated = 0;   // nodes that the source was asked to look closer at
+    std::size_t dead_ends = 0;   // nodes that are worth kNever as soon as they are looked at
+    std::size_t rounds = 0;      // through the best policy by the lower worths
+    std::size_t iterations = 0;  // improvements of policies
+    double lower = 0;            // the worth of every policy is at least this ...
+    double upper = kNever;       // ... and that of the best one found is at most this
+};
+
+// A policy: its nodes, of which the first is the root, and what it chooses at each of them.
+struct FoundPolicy {
+    std::vector<PolicyNodeId> nodes;
+    std::vector<DecisionId> choices;
+};
+
+struct PolicySearchResult {
+    std::optional<StopReason> stop;  // why the search ended before it was done
+    PolicyStatistics statistics;
+    std::optional<FoundPolicy> policy;
+    bool is_infinite = false;   // where nothing is worth anything: there are proper policies, but no finite one ...
+    bool is_undecided = false;  // ... as far as floating point can tell
+};
+
+// LAO* (Hansen and Zilberstein 2001) in its improved form. Every node has a lower worth L and the decision that is best
+// by it. A round goes depth-first through the policy that these make; it expands the open nodes that it meets, goes on
+// below them as long as their worths do not rise, and backs up on its way back.
+//
+// Lower worths stay lower worths: those of new nodes are admissible, and if L <= V* then T L <= T V* = V*, since T is
+// monotone.
+//
+// Where loops cost nothing, or an agent that seeks risk, or one without a proper policy, could wait for ever, backing
+// up does not lead to V*. So, once a round has met no open node, the envelope's best policy is found by policy
+// iteration, nodes outside being worth L; V* restricted to the envelope is at least that. If that policy stays inside,
+// it is worth what it was found to be, and so is the best of all. Nodes from which nothing can be reached become worth
+// kNever.
+//
+// From time to time the best policy of all that is explored is found, open nodes being nodes to stop at: an upper
+// worth. When the two are near enough, or a limit is reached, that is the result.
+class PolicySearch {
+public:
+    // `statistics` is kept up to date for whoever watches from `limits.poll`.
+    PolicySearch(DecisionSource& source, const PolicySearchOptions& options, Limits& limits,
+                 PolicyStatistics& statistics);
+
+    PolicySearchResult run();
+
+    const DecisionGraph& graph() const { return graph_; }
+
+private:
+    struct Frame {
+        PolicyNodeId node;
+        std::uint32_t next;  // outcome of the choice to go to
+    };
+
+    void search();
+    bool explore();
+    void enter(PolicyNodeId node, bool& has_met_open);
+    void expand(PolicyNodeId node);
+    bool back_up(PolicyNodeId node);
+    bool improve_envelope();
+    void improve_explored();
+    bool keep_if_closed(double slack);
+    bool is_near() const;
+    void note_lower();
+
+    DecisionSource& source_;
+    PolicySearchOptions options_;
+    Limits& limits_;
+    PolicyStatistics& statistics_;
+    DecisionGraph graph_;
+    PolicyNodeId root_;
+    Envelope envelope_;
+    PolicyIteration iteration_;
+    std::vector<Frame> frames_;
+    std::vector<PolicyNodeId> order_;     // nodes of the round, each after those that it leads to but for loops
+    std::vector<PolicyNodeId> explored_;  // expanded nodes
+    std::vector<DraftDecision> drafts_;
+    std::uint32_t round_ = 0;
+    std::size_t plunges_left_ = 0;  // of the round: nodes that may be expanded right after their parents
+    bool has_changed_ = false;      // in the round: a choice
+    std::size_t next_upper_ = 256;  // when so many nodes are expanded
+    std::optional<FoundPolicy> best_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,85 @@
+#ifndef RELAX_POLICIES_RECURSION_HPP
+#define RELAX_POLICIES_RECURSION_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "relax/policies/decision_graph.hpp"
+
+namespace relax {
+
+// What a decision is worth, given what its successors are worth: minimised, and monotone in each of them.
+//
+// Expected: constant + sum of weight * worth. The weight of an outcome is its probability, or 0 where the worth of what
+//     comes then is in the constant.
+// Averse:   ln sum of e^(weight + worth). The worth is alpha times a cost; the weight of an outcome of probability p is
+//     ln p + ln E e^(alpha c).
+// Seeking:  -ln sum of e^(weight - worth); the weight is ln p + ln E e^(-alpha c).
+// ExpectedCost: as Expected, with the expected cost of the step as its constant: what tells apart decisions that are
+// equal.
+//
+// All of them are linear in what is carried over (the worth itself, e^worth, e^-worth). What may lead to a node that is
+// worth kNever is worth that, too, whatever the other outcomes are: the agent must be done with probability 1, and a
+// seeking agent's sum would not show it.
+enum class Recursion : std::uint8_t { Expected, Averse, Seeking, ExpectedCost };
+
+namespace recursion {
+
+template <typename WorthOf>
+double expected(const DecisionGraph& graph, double constant, DecisionId decision, WorthOf worth_of) {
+    const auto successors = graph.successors(decision);
+    const auto weights = graph.weights(decision);
+    double sum = constant;
+    for (std::size_t at = 0; at < successors.size(); ++at) {
+        const double worth = worth_of(successors[at]);
+        if (worth == kNever) {
+            return kNever;
+        }
+        sum += weights[at] * worth;
+    }
+    return sum;
+}
+
+// `sign`: 1 for averse agents, -1 for those that seek risk. A successor may be worth -infinity.
+template <typename WorthOf>
+double exponential(const DecisionGraph& graph, double sign, DecisionId decision, WorthOf worth_of) {
+    const auto successors = graph.successors(decision);
+    const auto weights = graph.weights(decision);
+    double largest = -kNever;
+    for (std::size_t at = 0; at < successors.size(); ++at) {
+        const double worth = worth_of(successors[at]);
+        if (worth == kNever) {
+            return kNever;
+        }
+        largest = std::max(largest, weights[at] + sign * worth);
+    }
+    if (successors.size() == 1 || largest == -kNever) {
+        return sign * largest;
+    }
+    double sum = 0;
+    for (std::size_t at = 0; at < successors.size(); ++at) {
+        sum += std::exp(weights[at] + sign * worth_of(successors[at]) - largest);
+    }
+    return sign * (largest + std::log(sum));
+}
+
+}  // namespace recursion
+
+template <typename WorthOf>
+double worth_of_decision(const DecisionGraph& graph, Recursion kind, DecisionId decision, WorthOf worth_of) {
+    switch (kind) {
+        case Recursion::Expected:
+            return recursion::expected(graph, graph.constant(decision), decision, worth_of);
+        case Recursion::Averse:
+            return recursion::exponential(graph, 1, decision, worth_of);
+        case Recursion::Seeking:
+            return recursion::exponential(graph, -1, decision, worth_of);
+        default:
+            return recursion::expected(graph, graph.cost(decision), decision, worth_of);
+    }
+}
+
+}  // namespace relax
+
+#endif

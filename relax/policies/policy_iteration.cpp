@@ -1,0 +1,128 @@
+#include "relax/policies/policy_iteration.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace relax {
+
+namespace {
+
+constexpr std::uint32_t kSweeps = 8;  // between two evaluations
+constexpr std::uint32_t kMostRounds = 10000;
+
+}  // namespace
+
+void PolicyIteration::improve(Envelope& envelope, Recursion kind) {
+    sure_region_.make_proper(envelope);
+    if (evaluation_.evaluate(envelope, kind) != LinearOutcome::Solved) {
+        start_finite(envelope);
+    }
+    iterate(envelope, kind);
+}
+
+// Give nodes a finite policy where there is one, and let the others stop.
+void PolicyIteration::start_finite(Envelope& envelope) {
+    bool may_stop_everywhere = true;
+    std::vector<bool> is_sure(envelope.size());
+    for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+        may_stop_everywhere = may_stop_everywhere && envelope.stop(place) != kNever;
+        is_sure[place] = envelope.choice(place) != kStop || envelope.stop(place) != kNever;
+    }
+    if (!may_stop_everywhere) {
+        const Outside outside = envelope.outside();
+        envelope.set_outside(Outside::Reached);
+        envelope.set_stops(0);
+        for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+            envelope.choose(place, kStop);
+            envelope.set_worth(place, is_sure[place] ? 0 : kNever);
+        }
+        iterate(envelope, Recursion::Averse);
+        envelope.set_outside(outside);
+        envelope.restore_stops();
+        for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+            if (envelope.worth(place) != -kNever) {
+                found_infinite_ = found_infinite_ || is_sure[place];
+                envelope.choose(place, kStop);
+            }
+        }
+    }
+    evaluation_.evaluate(envelope, Recursion::Averse);
+    stop_where_infinite(envelope);
+}
+
+// Where it is allowed to stop, that is finite.
+void PolicyIteration::stop_where_infinite(Envelope& envelope) {
+    bool stops = false;
+    for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+        if (envelope.worth(place) == kNever && envelope.stop(place) != kNever) {
+            envelope.choose(place, kStop);
+            stops = true;
+        }
+    }
+    if (stops) {
+        evaluation_.evaluate(envelope, Recursion::Averse);
+    }
+}
+
+void PolicyIteration::iterate(Envelope& envelope, Recursion kind) {
+    std::vector<double> before(envelope.size());
+    for (std::uint32_t round = 0; round < kMostRounds; ++round) {
+        for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+            before[place] = envelope.worth(place);
+        }
+        std::uint32_t sweeps = 0;
+        while (sweeps < kSweeps && sweep(envelope, kind)) {
+            ++sweeps;
+        }
+        if (sweeps == 0) {
+            return;
+        }
+        is_undecided_ = evaluation_.evaluate(envelope, kind) == LinearOutcome::Undecided || is_undecided_;
+        // Below rounding, worths may seem to fall again and again.
+        bool has_fallen = false;
+        for (std::uint32_t place = 0; place < envelope.size() && !has_fallen; ++place) {
+            has_fallen = envelope.worth(place) < before[place] - slack_of(before[place]);
+        }
+        if (!has_fallen) {
+            return;
+        }
+    }
+}
+
+// Let each node take the best decision, if that is better than its own. Says whether there was one.
+bool PolicyIteration::sweep(Envelope& envelope, Recursion kind) {
+    bool has_changed = false;
+    for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+        limits_.stop_if_reached();
+        const double worth = envelope.worth(place);
+        if (worth == kNever || worth == -kNever) {
+            continue;
+        }
+        double best = worth - slack_of(worth);
+        DecisionId choice = envelope.choice(place);
+        bool is_better = false;
+        const auto offer = [&](double offered, DecisionId decision) {
+            if (offered < best) {
+                best = offered;
+                choice = decision;
+                is_better = true;
+            }
+        };
+        if (envelope.stop(place) != kNever) {
+            offer(envelope.stop(place), kStop);
+        }
+        for (const DecisionId decision : envelope.graph().decisions_of(envelope.node(place))) {
+            if (!envelope.is_barred(place, decision)) {
+                offer(envelope.worth_by(place, kind, decision), decision);
+            }
+        }
+        if (is_better) {
+            envelope.set_worth(place, best);
+            envelope.choose(place, choice);
+            has_changed = true;
+        }
+    }
+    return has_changed;
+}
+
+}  // namespace relax
