@@ -71,6 +71,10 @@ def seeking(alpha: Fraction) -> Value:
     return lambda law: Fraction(certainty_equivalent(law, -alpha))
 
 
+def success_utility(alpha: Fraction) -> Value:
+    return lambda law: alpha * Fraction(certainty_equivalent(law, -alpha))
+
+
 def mean_variance(weight: Fraction) -> Value:
     return lambda law: law.mean + weight * variance(law)
 
@@ -222,6 +226,7 @@ VALUES: dict[str, Callable[..., Value]] = {
     "quantile": quantile,
     "cvar": conditional_value_at_risk,
     "mean-cvar": mean_cvar,
+    "success-utility": success_utility,
 }
 """The value of a law by the name of an objective and its numbers."""
 
@@ -251,6 +256,7 @@ def bound_of_exponentials(linear: Fraction = Fraction(0), pairs: Sequence[tuple[
 BOUNDS: dict[str, Callable[..., Value]] = {
     "averse": nearly,
     "seeking": lambda alpha: nearly(-alpha),
+    "success-utility": lambda alpha: lambda law: alpha * nearly(-alpha)(law),
     "one-switch": lambda alpha, **_: nearly(Fraction(0), alpha),
     "exponentials": bound_of_exponentials,
     "evar": conditional_value_at_risk,

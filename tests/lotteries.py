@@ -158,7 +158,9 @@ def exponentials(draw: Draw) -> str:
 
 
 ADDITIVE = st.one_of(
-    st.just("neutral"), texts(("averse ", "seeking "), ALPHAS), texts("mean-variance ", ("0", "0.05", "0.2", "1"))
+    st.just("neutral"),
+    texts(("averse ", "seeking ", "success-utility alpha="), ALPHAS),
+    texts("mean-variance ", ("0", "0.05", "0.2", "1")),
 )
 FINITE = {
     "one-switch": texts("one-switch alpha=", ALPHAS, " tradeoff=", WEIGHTS[:4], " wealth=", ("0", "5", "10", "20")),

@@ -20,6 +20,7 @@ from statehtn.risk import (
     Overrun,
     Piecewise,
     Quantile,
+    SuccessUtility,
 )
 
 
@@ -66,6 +67,7 @@ BY_NAME: dict[str, st.SearchStrategy[Objective]] = {
     "quantile": st.builds(Quantile, LEVELS),
     "cvar": st.builds(ConditionalValueAtRisk, LEVELS),
     "mean-cvar": st.builds(MeanCvar, LEVELS, st.integers(0, 10).map(lambda tenths: tenths / 10)),
+    "success-utility": st.builds(SuccessUtility, SLOPES),
 }
 """Random objectives of every name that has a text form; costs are at most some 40."""
 

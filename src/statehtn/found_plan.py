@@ -17,7 +17,16 @@ from statehtn.model.cost.unknown import refuse_unknown
 from statehtn.model.plan import MOST_SHOWN, Plan, Step
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.risk import AdditiveObjective, Keep, Objective, adds_up, agent_in, certainty_equivalent, plan_risk_cost
+from statehtn.risk import (
+    AdditiveObjective,
+    Keep,
+    Objective,
+    ValueUnit,
+    adds_up,
+    agent_in,
+    certainty_equivalent,
+    plan_risk_cost,
+)
 from statehtn.validation import validate
 
 SECONDS_TO_VALIDATE = 0.2
@@ -213,7 +222,11 @@ def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecke
     prices = (step.risk_cost or 0.0 for step in steps)
     value = math.fsum(prices) if law is None or has_prices else objective.value(law)
     budgets = tuple(kept(one, None if law is None else one.attained(law)) for one in keep)
-    risk_cost = value if law is None or has_prices else certainty_equivalent(objective, law, value)
+    risk_cost: float | None = None
+    if objective.unit is ValueUnit.COST and (law is None or has_prices):
+        risk_cost = value
+    elif law is not None:
+        risk_cost = certainty_equivalent(objective, law, value)
     return FoundPlan(plan, steps, objective, unchecked, value, risk_cost, budgets)
 
 

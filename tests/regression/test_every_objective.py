@@ -23,6 +23,7 @@ ANY_BUDGET = (
     *("neutral", "averse 0.1", "averse 0.9", "seeking 0.1", "seeking 0.9", "mean-variance 0.01", "mean-variance 0.5"),
     *("mean-deviation 0.2", "mean-deviation 2", "exponentials linear=1 0.1:0.5 0.2:0.001", "evar 0.5", "evar 0.95"),
     *("quantile 0.5", "quantile 0.9", "quantile 0.99", "cvar 0.5", "cvar 0.95", "mean-cvar 0.9 0.25"),
+    "success-utility alpha=0.1",
 )
 OF_A_BUDGET = (
     "deadline {0}",

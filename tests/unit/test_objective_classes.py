@@ -181,6 +181,7 @@ CLASSES = {
     **dict.fromkeys(("neutral",), "PS10011"),
     **dict.fromkeys(("averse 1", "seeking 1"), "PS10110"),
     **dict.fromkeys(("mean-variance 1",), "PS10211"),
+    **dict.fromkeys(("success-utility alpha=1",), "PS10112"),
     **dict.fromkeys(("one-switch alpha=1 tradeoff=1 wealth=1",), "PS1120*"),
     **dict.fromkeys(
         ("exponentials linear=1 1:1", "deadline 1", "overrun 1", "piecewise 0:0 1:-1"),
@@ -207,7 +208,7 @@ def test_every_objective_has_a_class_or_none() -> None:
 
 def test_prices_are_what_makes_an_objective_additive() -> None:
     additive = {text.split()[0] for text in CLASSES if isinstance(objective(text), AdditiveObjective)}
-    assert additive == {"neutral", "averse", "seeking", "mean-variance"}
+    assert additive == {"neutral", "averse", "seeking", "mean-variance", "success-utility"}
     assert all(isinstance(objective(text), Objective) for text in CLASSES)
 
 

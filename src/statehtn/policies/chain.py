@@ -7,23 +7,13 @@ other are solved together, after all that they lead to.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
 
-from statehtn.errors import UsageError
-from statehtn.model.cost.law import CostLaw
 from statehtn.model.policy_graph import End, FlatPolicy
 from statehtn.policies.components import components
+from statehtn.policies.equations import by_law, log_sum, solution
 
-if TYPE_CHECKING:
-    from numpy import float64
-    from numpy.typing import NDArray
-
-    Vector = NDArray[float64]
-
-MOST_DENSE = 400
-"""Nodes that lead to each other: beyond, their equations are solved as sparse ones."""
 ROUNDING = 1e-9
 """Of solutions relative to their largest: what is less than nothing by more than that has no meaning."""
 
@@ -68,12 +58,31 @@ class Chain:
                 found[node] = True
         return found
 
+    @cached_property
+    def sure(self) -> bytearray:
+        """For each node whether runs from it are done for certain: they come to no other end, and to no endless loop.
+
+        Numbers would not tell: a loop may be left so seldom that rounding hides it.
+        """
+        flat, endless = self.flat, self.endless
+        found = bytearray(end is End.DONE for end in flat.ends)
+        for component in self.order:
+            if flat.ends[component[0]] is not None or endless[component[0]]:
+                continue
+            inside = set(component)
+            others = (flat.successors[branch] for node in component for branch in flat.branches(node))
+            if all(found[other] or other in inside for other in others):
+                for node in component:
+                    found[node] = True
+        return found
+
     def success_probability(self) -> float:
         """Return the probability that a run comes to its end: that it is done."""
-        flat = self.flat
-        values = [1.0 if end is End.DONE else 0.0 for end in flat.ends]
-        nothing = [0.0] * len(flat)
-        self._solve(values, flat.probabilities, nothing, 0.0)
+        flat, sure = self.flat, self.sure
+        if sure[0]:
+            return 1.0
+        values = [1.0 if is_sure else 0.0 for is_sure in sure]
+        self._solve(values, flat.probabilities, [0.0] * len(flat), 0.0, sure)
         return min(1.0, max(0.0, values[0]))
 
     def mean(self, failure: float) -> float:
@@ -83,7 +92,7 @@ class Chain:
             failure: what it pays; may be infinite.
         """
         flat = self.flat
-        means = _by_law(flat.laws, lambda law: law.mean)
+        means = by_law(flat.laws, lambda law: law.mean)
         constants = [
             math.fsum(flat.probabilities[branch] * means[branch] for branch in flat.branches(node))
             for node in range(len(flat))
@@ -100,7 +109,7 @@ class Chain:
             failure: what a run that fails pays on top of what it has spent; may be infinite.
         """
         flat = self.flat
-        means = _by_law(flat.laws, lambda law: law.exponential_mean(slope))
+        means = by_law(flat.laws, lambda law: law.exponential_mean(slope))
         weights = [math.log(p) + slope * mean for p, mean in zip(flat.probabilities, means, strict=True)]
         logs = [slope * value for value in self._end_values(failure)]
         for component in self.order:
@@ -108,7 +117,7 @@ class Chain:
                 continue
             if not self.loops(component):
                 node = component[0]
-                logs[node] = _log_sum([weights[b] + logs[flat.successors[b]] for b in flat.branches(node)])
+                logs[node] = log_sum([weights[b] + logs[flat.successors[b]] for b in flat.branches(node)])
                 continue
             self._solve_logs(component, logs, weights, slope, failure)
         return logs[0] / slope + 0.0
@@ -116,14 +125,21 @@ class Chain:
     def _end_values(self, failure: float) -> list[float]:
         return [failure if end in (End.FAILED, End.GIVEN_UP) else 0.0 for end in self.flat.ends]
 
-    def _solve(self, values: list[float], weights: Sequence[float], constants: Sequence[float], failure: float) -> None:
-        """Solve `value = constant + sum of weight * value of the successor`, where values of ends are given.
+    def _solve(
+        self,
+        values: list[float],
+        weights: Sequence[float],
+        constants: Sequence[float],
+        failure: float,
+        known: bytearray | None = None,
+    ) -> None:
+        """Solve `value = constant + sum of weight * value of the successor`; values of ends and known nodes are given.
 
         A loop that is never left is a failed run: its value is infinite where its constants are not 0.
         """
         flat = self.flat
         for component in self.order:
-            if flat.ends[component[0]] is not None:
+            if flat.ends[component[0]] is not None or (known is not None and known[component[0]]):
                 continue
             if not self.loops(component):
                 node = component[0]
@@ -203,50 +219,3 @@ class Chain:
                     parts.append(weights[branch] * values[other])
             added.append(math.inf if math.inf in parts else math.fsum(parts))
         return matrix, added
-
-
-def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], count: int) -> list[float]:
-    """Return x of `x = M x + b`; infinite numbers where there is no single one.
-
-    Raises:
-        UsageError: there are many equations, and scipy is not installed.
-    """
-    import numpy
-
-    if count <= MOST_DENSE:
-        dense = numpy.eye(count)
-        for i, j, weight in matrix:
-            dense[i, j] -= weight
-        try:
-            found: Vector = numpy.linalg.solve(dense, numpy.array(added))
-        except numpy.linalg.LinAlgError:
-            return [math.inf] * count
-        return [float(value) for value in found]
-    try:
-        from scipy.sparse import csr_matrix, identity
-        from scipy.sparse.linalg import spsolve
-    except ImportError:
-        raise UsageError(
-            f"the value of a policy that loops through {count} states needs the package 'scipy': "
-            "pip install 'statehtn[scipy]'"
-        ) from None
-    rows, columns, weights = zip(*matrix, strict=True)
-    sparse = identity(count, format="csr") - csr_matrix((weights, (rows, columns)), shape=(count, count))
-    return [float(value) for value in spsolve(sparse.tocsc(), numpy.array(added))]
-
-
-def _by_law(laws: Sequence[CostLaw], price: Callable[[CostLaw], float]) -> list[float]:
-    """Return a number for each branch's law; few laws are many branches'."""
-    known: dict[int, float] = {}
-    for law in laws:
-        if id(law) not in known:
-            known[id(law)] = price(law)
-    return [known[id(law)] for law in laws]
-
-
-def _log_sum(logs: Sequence[float]) -> float:
-    """Return the logarithm of the sum of `e^x`."""
-    largest = max(logs)
-    if math.isinf(largest):
-        return largest
-    return largest + math.log(math.fsum(math.exp(log - largest) for log in logs))

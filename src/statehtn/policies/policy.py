@@ -17,8 +17,7 @@ from statehtn.policies.entries import node_entry
 from statehtn.policies.simulation import SimulatedRuns, simulate
 from statehtn.policies.total_cost import PolicyCost
 from statehtn.policies.trajectory import Trajectory, drawn
-from statehtn.risk import Objective
-from statehtn.risk.success import Success
+from statehtn.risk import Objective, Success
 
 if TYPE_CHECKING:
     from statehtn.model.decomposition_tree import DecompositionTree

@@ -15,8 +15,9 @@ from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.sum import CostSum
 from statehtn.model.cost.total import as_decimal
 from statehtn.model.policy_graph import End
-from statehtn.policies.chain import Chain, solution
+from statehtn.policies.chain import Chain
 from statehtn.policies.components import components
+from statehtn.policies.equations import solution
 
 NOTHING = 1e-20
 """Of the probability of being at a node with an amount spent: less is cut off."""
@@ -63,7 +64,7 @@ class _Walk:
         self.chain = chain
         self.limits = limits
         laws = {id(law): law for law in flat.laws}
-        finite = {key: _outcomes(law) for key, law in laws.items()}
+        finite = {key: outcomes_of(law) for key, law in laws.items()}
         per_unit = math.lcm(*(cost.denominator for outcomes in finite.values() for _, cost in outcomes), 1)
         self.found = Totals(Fraction(1, per_unit))
         amounts = {key: [(p, int(cost * per_unit)) for p, cost in outcomes] for key, outcomes in finite.items()}
@@ -174,7 +175,7 @@ class _Walk:
         self.found.failed[amount] = self.found.failed.get(amount, 0.0) + mass
 
 
-def _outcomes(law: CostLaw) -> list[tuple[float, Fraction]]:
+def outcomes_of(law: CostLaw) -> list[tuple[float, Fraction]]:
     """Return the outcomes of a law that has some: pairs of a probability and an exact cost.
 
     Raises:
@@ -184,6 +185,6 @@ def _outcomes(law: CostLaw) -> list[tuple[float, Fraction]]:
     if isinstance(total, CostDistribution) and type(total) is CostDistribution:
         return [(probability, as_decimal(cost)) for probability, cost in total.outcomes]
     raise UnsupportedError(
-        f"the law of a policy's total cost needs lists of outcomes, and one of its costs is none: {law}; ask for its "
-        "expected_cost, for its certainty equivalents, or for a simulation"
+        f"total costs, amount by amount, need lists of outcomes, and one of the costs is none: {law}; the expected "
+        "cost, certainty equivalents and simulations do without"
     )

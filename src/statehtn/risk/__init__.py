@@ -30,6 +30,9 @@ from statehtn.risk.overrun import Overrun
 from statehtn.risk.piecewise import Piecewise
 from statehtn.risk.problem_class import RiskProblemClass, problem_class
 from statehtn.risk.quantile import Quantile
+from statehtn.risk.success import Success
+from statehtn.risk.success_utility import SuccessUtility
+from statehtn.risk.trajectory_utility import trajectory_utility
 from statehtn.risk.utility import Attitude, AttitudeName, FunctionType, PlanUtility, Utility
 
 __all__ = [
@@ -60,6 +63,8 @@ __all__ = [
     "PlanUtility",
     "Quantile",
     "RiskProblemClass",
+    "Success",
+    "SuccessUtility",
     "Term",
     "Utility",
     "ValueUnit",
@@ -76,5 +81,6 @@ __all__ = [
     "plan_expected_cost",
     "plan_risk_cost",
     "problem_class",
+    "trajectory_utility",
     "utility_for",
 ]

@@ -16,6 +16,8 @@ class ValueUnit(StrEnum):
     PROBABILITY = "probability"
     UTILITY = "utility"
     """Minus the expected utility."""
+    LOG_UTILITY = "log-utility"
+    """Minus the natural logarithm of the expected utility."""
 
 
 @runtime_checkable

@@ -23,6 +23,7 @@ from statehtn.risk.one_switch import OneSwitch
 from statehtn.risk.overrun import Overrun
 from statehtn.risk.piecewise import Piecewise
 from statehtn.risk.quantile import Quantile
+from statehtn.risk.success_utility import SuccessUtility
 from statehtn.risk.utility import Attitude
 
 ObjectiveLike = Objective | str | Callable[[float], float]
@@ -71,6 +72,9 @@ _FORMS = (
     ObjectiveForm("quantile LEVEL", "budget that is kept with that probability", Quantile),
     ObjectiveForm("cvar LEVEL", "mean cost of the worst 1 - LEVEL of all cases", ConditionalValueAtRisk),
     ObjectiveForm("mean-cvar LEVEL W", "(1 - W) expected cost + W cvar", MeanCvar),
+    ObjectiveForm(
+        "success-utility alpha=A", "-ln of the product of success probabilities and mean e^(-A cost)", SuccessUtility
+    ),
 )
 
 OBJECTIVES: Mapping[str, ObjectiveForm] = MappingProxyType({form.form.split()[0]: form for form in _FORMS})

@@ -37,12 +37,17 @@ class RiskProblemClass:
         return f"P{self.i}{self.j}{self.k}{self.l:d}{self.m}{n}"
 
 
-def problem_class(solver: str, objective: Objective) -> RiskProblemClass | None:
-    """Return the class of problems that a solver solves for an objective: one effect per action.
+def problem_class(solver: str, objective: Objective, effects: str = "1") -> RiskProblemClass | None:
+    """Return the class of problems that a solver solves for an objective.
 
     The objective says what it is by `function_type`, `allows_segmentation` and `plan_utility`, and by `is_dynamic` if
     its attitude changes with what is left. One without `plan_utility` is a measure of risk that is no expected utility
     (a quantile, say), and outside of the paper's classes: None.
+
+    Args:
+        solver: `state` or `plan`.
+        objective: what is minimised.
+        effects: `1` where every action has one effect, `n` where some have several.
 
     Raises:
         UsageError: there is no such solver.
@@ -54,7 +59,7 @@ def problem_class(solver: str, objective: Objective) -> RiskProblemClass | None:
         return None
     return RiskProblemClass(
         i=PLANNING_TYPES[solver],
-        j="1",
+        j=effects,
         k=int(getattr(objective, "is_dynamic", False)),
         l=getattr(objective, "function_type", FunctionType.OTHER),
         m=int(getattr(objective, "allows_segmentation", False)),

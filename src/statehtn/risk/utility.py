@@ -43,7 +43,11 @@ class PlanUtility(IntEnum):
     """Paper equation 5: a product over segments, `(alpha / a)^(s - 1) EU(o_1) ... EU(o_s)`."""
     SUM = 1
     """Paper equation 7: `EU(o_1) + ... + EU(o_s)`."""
-    TRAJECTORIES = 2
+    SUCCESS = 2
+    """Paper equation 8: a product of the probabilities of success, and one of the utilities of the actions."""
+    TRAJECTORY = 3
+    """Paper equation 9: of one trajectory, the sum over its actions of a probability times a utility."""
+    TRAJECTORIES = 4
     """Paper equation 4, written `*`: the sum over all trajectories, which no values of single actions determine."""
 
 

@@ -1,0 +1,66 @@
+"""Linear equations, and sums as logarithms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from statehtn.errors import UsageError
+from statehtn.model.cost.law import CostLaw
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+    Vector = NDArray[float64]
+
+MOST_DENSE = 400
+"""Equations: more are solved as sparse ones."""
+
+
+def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], count: int) -> list[float]:
+    """Return x of `x = M x + b`; infinite numbers where there is no single one.
+
+    Raises:
+        UsageError: there are many equations, and scipy is not installed.
+    """
+    import numpy
+
+    if count <= MOST_DENSE:
+        dense = numpy.eye(count)
+        for i, j, weight in matrix:
+            dense[i, j] -= weight
+        try:
+            found: Vector = numpy.linalg.solve(dense, numpy.array(added))
+        except numpy.linalg.LinAlgError:
+            return [math.inf] * count
+        return [float(value) for value in found]
+    try:
+        from scipy.sparse import csr_matrix, identity
+        from scipy.sparse.linalg import spsolve
+    except ImportError:
+        raise UsageError(
+            f"the value of a policy that loops through {count} states needs the package 'scipy': "
+            "pip install 'statehtn[scipy]'"
+        ) from None
+    rows, columns, weights = zip(*matrix, strict=True)
+    sparse = identity(count, format="csr") - csr_matrix((weights, (rows, columns)), shape=(count, count))
+    return [float(value) for value in spsolve(sparse.tocsc(), numpy.array(added))]
+
+
+def by_law(laws: Sequence[CostLaw], price: Callable[[CostLaw], float]) -> list[float]:
+    """Return a number for each branch's law; few laws are many branches'."""
+    known: dict[int, float] = {}
+    for law in laws:
+        if id(law) not in known:
+            known[id(law)] = price(law)
+    return [known[id(law)] for law in laws]
+
+
+def log_sum(logs: Sequence[float]) -> float:
+    """Return the logarithm of the sum of `e^x`."""
+    largest = max(logs)
+    if math.isinf(largest):
+        return largest
+    return largest + math.log(math.fsum(math.exp(log - largest) for log in logs))
