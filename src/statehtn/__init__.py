@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from statehtn.core.heuristics import HEURISTICS
     from statehtn.core.progress import Progress, TopProgress
     from statehtn.core.searches import SEARCHES
+    from statehtn.explanation import NoPlan, WhyNot, why
     from statehtn.found_plan import PricedStep
     from statehtn.hddl import HddlWarning, read_hddl, read_hddl_text, write_hddl
     from statehtn.hddl.plan_format import read_plan, write_plan
@@ -99,6 +100,7 @@ __all__ = [
     "MeanDeviation",
     "MeanVariance",
     "Neutral",
+    "NoPlan",
     "Objective",
     "OneSwitch",
     "Overrun",
@@ -122,6 +124,7 @@ __all__ = [
     "UsageError",
     "Utility",
     "Validation",
+    "WhyNot",
     "__version__",
     "alpha_of",
     "attitude_map",
@@ -151,6 +154,7 @@ __all__ = [
     "utility_for",
     "validate",
     "when",
+    "why",
     "with_cost",
     "write_hddl",
     "write_plan",
@@ -166,6 +170,7 @@ _MODULES_FOR_LATER = {
     "core.heuristics": ("HEURISTICS",),
     "core.progress": ("Progress", "TopProgress"),
     "core.searches": ("SEARCHES",),
+    "explanation": ("NoPlan", "WhyNot", "why"),
     "found_plan": ("PricedStep",),
     "hddl": ("HddlWarning", "read_hddl", "read_hddl_text", "write_hddl"),
     "hddl.plan_format": ("read_plan", "write_plan"),

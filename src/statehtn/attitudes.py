@@ -132,14 +132,7 @@ class AttitudeComparison:
         mine, its = self.results[agent], self.results[other]
         if not (mine and its):
             return ()
-        matcher = SequenceMatcher(None, tokens(mine.steps), tokens(its.steps), autojunk=False)
-        price = _price_of(mine.objective, (priced.law for priced in (*mine.steps, *its.steps)))
-        found = []
-        for tag, start, end, other_start, other_end in matcher.get_opcodes():
-            if tag != "equal":
-                own, others = tuple(mine.steps[start:end]), tuple(its.steps[other_start:other_end])
-                found.append(Difference(own, others, price(own), price(others)))
-        return tuple(found)
+        return differences_between(mine.steps, its.steps, mine.objective)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the object that `statehtn compare-attitudes --json` prints."""
@@ -177,6 +170,20 @@ class AttitudeComparison:
         from statehtn.display.comparison import comparison_html
 
         return comparison_html(self)
+
+
+def differences_between(
+    steps: Sequence[PricedStep], others: Sequence[PricedStep], objective: Objective
+) -> tuple[Difference, ...]:
+    """Return where the steps of one plan part from those of another, priced by an objective."""
+    matcher = SequenceMatcher(None, tokens(steps), tokens(others), autojunk=False)
+    price = _price_of(objective, (priced.law for priced in (*steps, *others)))
+    found = []
+    for tag, start, end, other_start, other_end in matcher.get_opcodes():
+        if tag != "equal":
+            own, other = tuple(steps[start:end]), tuple(others[other_start:other_end])
+            found.append(Difference(own, other, price(own), price(other)))
+    return tuple(found)
 
 
 def _price_of(objective: Objective, laws: Iterable[CostLaw]) -> Callable[[Iterable[PricedStep]], float | None]:

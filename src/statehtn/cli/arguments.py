@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
-from statehtn.cli.model_arguments import add_check
+from statehtn.cli.model_arguments import add_check, add_why
 from statehtn.cli.parser import Parser
 from statehtn.cli.shared_options import add_agent, add_inputs, add_keep, add_limits, add_objective, count
 from statehtn.cli.streams import emit
@@ -42,12 +42,13 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     parser = Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(
-        dest="command", required=True, metavar="plan|top|validate|check|compare-attitudes|compare|report|graph"
+        dest="command", required=True, metavar="plan|top|validate|check|why|compare-attitudes|compare|report|graph"
     )
     _add_plan(commands)
     _add_top(commands)
     _add_validate(commands)
     add_check(commands)
+    add_why(commands)
     _add_compare_attitudes(commands)
     _add_compare(commands)
     _add_report(commands)

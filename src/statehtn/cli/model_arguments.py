@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from statehtn.cli.parser import Parser
-from statehtn.cli.shared_options import add_limits
+from statehtn.cli.shared_options import add_inputs, add_limits, add_objective
 
 if TYPE_CHECKING:
     Commands = argparse._SubParsersAction[Parser]
@@ -22,6 +22,19 @@ leave no plan, warnings are likely slips, notes are neither: what a problem mere
 exit codes:
   0 no errors and no warnings    2 usage             21 memory limit     130 interrupted
   1 errors or warnings           20 time limit       30 a file cannot be read at all
+"""
+
+WHY_EPILOG = """examples:
+  statehtn why domain.hddl p1.hddl                    what cannot be done, and what would help
+  statehtn why domain.hddl p1.hddl --plan plan.txt    what is wrong with this plan, or what it costs more than the best
+  statehtn why domain.hddl p1.hddl --plan plan.txt --attitude averse --alpha 0.5    ... for this agent
+
+A plan is a file in the IPC 2020 format, or a list of actions, one in each line. What may be added to the problem, and
+the points where nothing goes on, are looked for during at most 10 seconds each.
+
+exit codes:
+  0 answered      20 time limit      30 input error             130 interrupted
+  2 usage         21 memory limit    31 unsupported feature
 """
 
 
@@ -40,3 +53,22 @@ def add_check(commands: Commands) -> None:
     parser.add_argument("problem", metavar="PROBLEM", nargs="?", help="HDDL file of a problem")
     parser.add_argument("--format", choices=("text", "json", "github"), default="text", help="default: text")
     add_limits(parser)
+
+
+def add_why(commands: Commands) -> None:
+    """Add `statehtn why`."""
+    parser = commands.add_parser(
+        "why",
+        help="say why there is no plan, or why it is not that plan",
+        description="Say why a problem has no plan: which task cannot be accomplished, and of each of its methods why "
+        "not, down to the roots. With --plan: what a given plan violates, or what it costs more than the best, and "
+        "where.",
+        epilog=WHY_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    add_inputs(parser)
+    parser.add_argument("--plan", metavar="FILE", help="ask about this plan; - for standard input")
+    add_objective(parser, "with --plan: the agent", has_budgets=False)
+    add_limits(parser)
+    parser.add_argument("--json", action="store_true", help="print the answer as one JSON object")

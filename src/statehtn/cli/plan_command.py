@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from contextlib import suppress
 from functools import partial
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
@@ -16,7 +17,7 @@ from statehtn.compatible import switches_in
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
-from statehtn.limits import Limits
+from statehtn.limits import LimitReached, Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
 from statehtn.result import Result
@@ -61,6 +62,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         pass
     keeper.finish(result, session.problem)
     _print(result, options, beside=output is not None and output.is_stdout)
+    if result.status is Status.UNSOLVABLE and session.problem is not None and not (options.json or options.quiet):
+        _say_why(result, session.problem, limits)
     if keeper.failure is not None:
         raise keeper.failure
     return EXIT_CODES[result.status]
@@ -95,6 +98,19 @@ class _PlanKeeper:
                 self.output.remove()
             except OutputError as error:
                 self.failure = error
+
+
+def _say_why(result: Result, problem: Problem, limits: Limits) -> None:
+    """Say in three lines why there is no plan, as far as that is found soon."""
+    if result.largest:
+        return  # there are plans, but none keeps the budgets
+    from statehtn.display.explanation import reason_lines
+    from statehtn.explanation.explanation import reason_soon  # only for problems without a plan
+
+    with suppress(LimitReached, KeyboardInterrupt):
+        lines = reason_lines(reason_soon(problem, limits))
+        emit_lines(["", *lines])
+    emit("'statehtn why' with the same files says more")
 
 
 def _print(result: Result, options: argparse.Namespace, beside: bool) -> None:

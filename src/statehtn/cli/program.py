@@ -50,6 +50,10 @@ def _run(options: argparse.Namespace) -> ExitCode:
             from statehtn.cli.check_command import run_check
 
             return run_check(options)
+        case "why":
+            from statehtn.cli.why_command import run_why
+
+            return run_why(options)
         case "compare-attitudes":
             from statehtn.cli.attitudes_command import run_compare_attitudes
 

@@ -23,9 +23,9 @@ def add_agent(parser: argparse.ArgumentParser) -> None:
     _add_attitude(agent)
 
 
-def add_objective(parser: argparse.ArgumentParser) -> None:
+def add_objective(parser: argparse.ArgumentParser, title: str = "the agent", has_budgets: bool = True) -> None:
     """Add what plans are compared by, and what they have to keep; `objective_in` reads the former back."""
-    agent = parser.add_argument_group("the agent")
+    agent = parser.add_argument_group(title)
     agent.add_argument(
         "--objective",
         metavar="TEXT",
@@ -33,7 +33,8 @@ def add_objective(parser: argparse.ArgumentParser) -> None:
         "'statehtn plan'; default: the expected cost",
     )
     _add_attitude(agent)
-    add_keep(agent)
+    if has_budgets:
+        add_keep(agent)
 
 
 def _add_attitude(agent: argparse._ActionsContainer) -> None:

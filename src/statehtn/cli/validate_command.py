@@ -7,13 +7,11 @@ import json
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
+from statehtn.cli.plan_files import read_plan_file
 from statehtn.cli.streams import emit
-from statehtn.errors import InputError
-from statehtn.hddl.action_list import read_actions
-from statehtn.hddl.plan_format import read_plan, write_plan
+from statehtn.hddl.plan_format import write_plan
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import Step
-from statehtn.read_file import read_whole
 from statehtn.validation import Validation
 from statehtn.verify import validate
 
@@ -31,9 +29,7 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     found = None
     try:
         problem = read_problem(options, limits)
-        text = _read_text(options.plan, limits)
-        actions = read_actions(text, problem, options.plan)
-        plan = read_plan(text, problem, options.plan) if actions is None else actions
+        plan = read_plan_file(options.plan, problem, limits)
         steps = plan if isinstance(plan, tuple) else plan.steps
         validation = validate(problem, plan, limits)
         found = None if validation.plan is None else write_plan(validation.plan, problem)
@@ -47,10 +43,3 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
     if validation.stopped is not None:
         return EXIT_CODES[validation.stopped]
     return ExitCode.SUCCESS if validation.valid else ExitCode.INVALID_PLAN
-
-
-def _read_text(name: str, limits: Limits) -> str:
-    try:
-        return read_whole(name, limits).decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise InputError(f"'{name}' is no text file: byte {error.start} cannot be decoded") from None

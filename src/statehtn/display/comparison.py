@@ -9,6 +9,7 @@ from html import escape
 from statehtn.attitudes import AttitudeComparison, Difference, tokens
 from statehtn.display.table import Column, Table
 from statehtn.found_plan import PricedStep
+from statehtn.model.plan import Step
 from statehtn.model.status import Status
 
 TIE = 1e-9
@@ -139,9 +140,14 @@ def _are_equal(price: float | None, other: float | None) -> bool:
 
 
 def _actions(steps: Sequence[PricedStep]) -> str:
+    return actions_text([priced.step for priced in steps])
+
+
+def actions_text(steps: Sequence[Step]) -> str:
+    """Return actions in one line; of many those at the ends."""
     if not steps:
         return "nothing"
-    actions = [str(priced.step) for priced in steps]
+    actions = [str(step) for step in steps]
     hidden = len(actions) - 2 * EDGE
     if hidden < 2:
         return " ".join(actions)

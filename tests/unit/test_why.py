@@ -1,0 +1,149 @@
+"""Why there is no plan, and why it is not that plan: the answers in words, as JSON, and from Python."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import statehtn
+from statehtn.cli.program import main
+from statehtn.model import Problem
+from statehtn.model.status import Status
+from tests.pages import ROOT, blocks
+
+PAGE = {block.title: block.text for block in blocks((ROOT / "docs" / "why.md").read_text(encoding="utf-8"))}
+DOMAIN, UNREACHABLE, FORBIDDEN = (PAGE[name] for name in ("transport.hddl", "p1.hddl", "p2.hddl"))
+SOLVABLE = UNREACHABLE.replace("(road home shop)", "(road home shop) (road shop port)")
+AV = (str(ROOT / "domains/av/domain.hddl"), str(ROOT / "domains/av/p1.hddl"))
+
+
+def read(problem: str, domain: str = DOMAIN) -> Problem:
+    return statehtn.read_hddl_text(domain, problem)
+
+
+@pytest.fixture
+def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, text in (("d", DOMAIN), ("unreachable", UNREACHABLE), ("forbidden", FORBIDDEN), ("solvable", SOLVABLE)):
+        Path(f"{name}.hddl").write_text(text, encoding="utf-8")
+
+
+def test_roots_and_additions() -> None:
+    answer = statehtn.why(read(UNREACHABLE))
+    assert isinstance(answer, statehtn.NoPlan)
+    assert answer.status is Status.UNSOLVABLE
+    assert answer.reason is not None
+    assert (answer.reason.kind, answer.reason.name) == ("task", "deliver")
+    assert "(road ?a port): neither ':init' nor an action makes it true" in str(next(answer.reason.roots()))
+    assert {str(addition) for (addition,) in answer.additions} == {
+        "(at van port)",
+        "(road home port)",
+        "(road shop port)",
+    }
+
+
+def test_an_object_is_missing() -> None:
+    answer = statehtn.why(read(SOLVABLE.replace("van - truck", "").replace("(at van home)", "")))
+    assert isinstance(answer, statehtn.NoPlan)
+    assert "an object of type 'truck' for ?t: there is none" in str(answer)
+    assert [str(addition) for addition in answer.additions[0]] == [
+        "an object 'new truck' of type 'truck'",
+        "(at new truck home)",
+    ]
+
+
+def test_conditions_that_exclude_each_other() -> None:
+    domain = DOMAIN.replace("(in ?p - parcel ?t - truck)", "(in ?p - parcel ?t - truck) (big ?t) (red ?t)")
+    domain = domain.replace(":precondition (at ?p ?from)", ":precondition (and (at ?p ?from) (big ?t) (red ?t))")
+    problem = SOLVABLE.replace("van -", "van lorry -").replace("(at van home)", "(at van home) (big lorry) (red van)")
+    answer = statehtn.why(read(problem, domain))
+    assert isinstance(answer, statehtn.NoPlan)
+    assert "(big ?t) and (red ?t): no ?t goes together with all of these" in str(answer)
+    assert "(big ?t): can be had only with ?t = lorry" in str(answer)
+    assert [str(addition) for addition in answer.additions[0]] == ["(big van)"]
+
+
+def test_an_action_that_no_task_leads_to() -> None:
+    domain = DOMAIN.replace("(and (get-to ?t ?from) (load ?p ?t ?from) (get-to", "(and (get-to ?t ?from) (get-to")
+    answer = statehtn.why(read(SOLVABLE, domain))
+    assert "(load box van ?l): it could be executed, but no method contains it" in str(answer)
+
+
+def test_the_order_or_deletes_forbid_it() -> None:
+    answer = statehtn.why(read(FORBIDDEN))
+    assert isinstance(answer, statehtn.NoPlan)
+    assert (answer.status, answer.reason, answer.additions) == (Status.UNSOLVABLE, None, ())
+    assert answer.exploration is not None
+    (deadlock,) = answer.exploration.deadlocks
+    assert [str(step) for step in deadlock.steps][-1] == "(unload box van shop)"
+    assert [(lack.fact, lack.wanted, lack.changed_by) for lack in deadlock.lacks] == [(("at", "van", "home"), True, 2)]
+
+
+def test_there_is_a_plan() -> None:
+    answer = statehtn.why(read(SOLVABLE))
+    assert isinstance(answer, statehtn.NoPlan)
+    assert answer.status in (Status.SOLVED, Status.OPTIMAL)
+    assert str(answer).startswith("There is a plan, of 4 actions: (drive van home shop)")
+
+
+def test_a_plan_that_is_none() -> None:
+    answer = statehtn.why(read(FORBIDDEN), ["(drive van home shop)", "(unload bag van home)"])
+    assert isinstance(answer, statehtn.WhyNot)
+    assert answer.given is None
+    assert any("(unload bag van home)" in reason for reason in answer.reasons)
+
+
+def test_a_plan_that_costs_more() -> None:
+    problem = statehtn.read_hddl(*AV)
+    plan = statehtn.plan(problem).plan
+    assert plan is not None
+    same, other = statehtn.why(problem, plan), statehtn.why(problem, plan, attitude="averse", alpha=0.9)
+    assert isinstance(same, statehtn.WhyNot)
+    assert isinstance(other, statehtn.WhyNot)
+    assert same.more == pytest.approx(0)
+    assert "no plan is better" in str(same)
+    assert other.more == pytest.approx(2.370690344)
+    costs = [(part.own_cost or 0) - (part.other_cost or 0) for part in other.differences]
+    assert sum(costs) == pytest.approx(other.more)
+    assert other.to_dict()["valid"] is True
+
+
+@pytest.mark.usefixtures("files")
+def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["why", "d.hddl", "unreachable.hddl"]) == 0
+    assert "└── method 'm-deliver'" in capsys.readouterr().out
+    assert main(["why", "d.hddl", "unreachable.hddl", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["status"] == "unsolvable"
+    assert found["reason"]["because"][0]["name"] == "m-deliver"
+    assert ["(road home port)"] in found["additions"]
+    assert main(["why", "d.hddl", "forbidden.hddl", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["stuck"][0]["lacks"][0]["changed_by"] == 2
+    Path("plan.txt").write_text("(drive van home shop)\n", encoding="utf-8")
+    assert main(["why", "d.hddl", "solvable.hddl", "--plan", "plan.txt", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["valid"] is False
+
+
+@pytest.mark.usefixtures("files")
+def test_mistakes_and_limits(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["why", "d.hddl", "solvable.hddl", "--alpha", "1", "--attitude", "averse"]) == 2
+    assert "--plan alone" in capsys.readouterr().err
+    assert main(["why", "d.hddl", "nowhere.hddl"]) == 30
+    assert main(["why", "d.hddl", "solvable.hddl", "--time-limit", "1e-9"]) == 20
+    capsys.readouterr()
+    assert main(["why", "d.hddl", "solvable.hddl", "--time-limit", "1e-9", "--json"]) == 20
+    assert json.loads(capsys.readouterr().out)["status"] == "time-limit"
+
+
+@pytest.mark.usefixtures("files")
+def test_plan_says_it_in_three_lines(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plan", "d.hddl", "unreachable.hddl"]) == 10
+    first, second, third = capsys.readouterr().out.splitlines()[-3:]
+    assert first == "why: (deliver box port): its only method cannot be used, even if nothing were ever deleted"
+    assert second.startswith("at the root: (drive van ?a port): needs (road ?a port)")
+    assert third == "'statehtn why' with the same files says more"
+    assert main(["plan", "d.hddl", "unreachable.hddl", "--quiet"]) == 10
+    assert main(["plan", "d.hddl", "forbidden.hddl", "--json"]) == 10
+    assert "why" not in capsys.readouterr().out
