@@ -6,7 +6,7 @@ States are frozen sets of facts; a term that is no bound variable is an object.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 
@@ -18,6 +18,7 @@ from statehtn.model import (
     Atom,
     CostBlock,
     CostDistribution,
+    Effect,
     Equals,
     Exists,
     Expression,
@@ -46,7 +47,7 @@ class Semantics:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.domain = problem.domain
-        changing = {effect.atom.predicate for action in self.domain.actions.values() for effect in action.effects}
+        changing = {effect.atom.predicate for action in self.domain.actions.values() for effect in action.all_effects}
         self.fixed = set(self.domain.predicates) - changing
         self.instances = cache(self._instances)
 
@@ -99,15 +100,20 @@ class Semantics:
         bindings = self.bind(action, arguments)
         if bindings is None or not self.holds(action.precondition, bindings, state):
             return None
+        added, deleted = self.changes(action.effects, bindings, state)
+        return (state - deleted) | added
+
+    def changes(self, effects: Iterable[Effect], bindings: Bindings, state: State) -> tuple[set[Fact], set[Fact]]:
+        """What effects make true and what false."""
         added: set[Fact] = set()
         deleted: set[Fact] = set()
-        for effect in action.effects:
+        for effect in effects:
             for more in self.all_bindings(effect.parameters):
                 inner = {**bindings, **more}
                 if self.holds(effect.condition, inner, state):
                     fact = (effect.atom.predicate, *(inner.get(term, term) for term in effect.atom.arguments))
                     (added if effect.positive else deleted).add(fact)
-        return (state - deleted) | added
+        return added, deleted
 
     def law(self, name: str, arguments: tuple[str, ...], state: State | None) -> CostDistribution:
         """The law of the cost of an action that is executed in a state; without a state, of the part always due."""
@@ -116,13 +122,22 @@ class Semantics:
 
     def exact_law(self, name: str, arguments: tuple[str, ...], state: State | None) -> Law:
         """The same, with the probability of each cost as a fraction."""
-        if not any(action.costs for action in self.domain.actions.values()):
+        if not any(self.states_costs(action) for action in self.domain.actions.values()):
             return {Fraction(1): Fraction(1)}
         action = self.domain.actions[name]
         bindings = self.bind(action, arguments)
         assert bindings is not None
+        return self.law_of(action.costs, arguments, bindings, state)
+
+    def states_costs(self, action: Action) -> bool:
+        return bool(action.costs) or any(one.costs for block in action.outcomes for one in block.outcomes)
+
+    def law_of(
+        self, blocks: Iterable[CostBlock], arguments: tuple[str, ...], bindings: Bindings, state: State | None
+    ) -> Law:
+        """The law of the sum of those blocks that are due."""
         law: Law = {Fraction(0): Fraction(1)}
-        for block in action.costs:
+        for block in blocks:
             for more in self.all_bindings(block.parameters):
                 inner = {**bindings, **more}
                 if block.condition == TRUE or (state is not None and self.holds(block.condition, inner, state)):
