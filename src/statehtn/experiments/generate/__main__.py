@@ -6,9 +6,9 @@ import argparse
 import sys
 
 from statehtn.errors import UsageError
-from statehtn.experiments.generate import av, satellite
+from statehtn.experiments.generate import av, satellite, trials
 
-FAMILIES = {"av": av, "satellite": satellite}
+FAMILIES = {"av": av, "satellite": satellite, "trials": trials}
 
 
 def main() -> int:
