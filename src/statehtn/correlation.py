@@ -68,9 +68,11 @@ class Correlation:
 
 def scenario_laws(plan: Plan) -> tuple[ScenarioLaw, ...]:
     """Return what a plan that knows its costs costs in each scenario; empty where no cost depends on one."""
-    total = total_by_scenario(plan.costs or ())
-    if not isinstance(total, ScenarioCost):
+    costs = plan.costs or ()
+    if not any(isinstance(law, ScenarioCost) for law in costs):
         return ()
+    total = total_by_scenario(costs)
+    assert isinstance(total, ScenarioCost)
     return tuple(map(ScenarioLaw, total.scenarios, total.laws))
 
 

@@ -102,6 +102,12 @@ class Limits:
         now = time.monotonic()
         return replace(self, deadline=now + max(0.0, self.deadline - now) * share)
 
+    def sooner(self, seconds: float) -> Limits:
+        """Return limits that leave so much less time, but half of what is left at least."""
+        if self.deadline is None:
+            return self
+        return replace(self, deadline=self.deadline - min(seconds, max(0.0, self.deadline - time.monotonic()) / 2))
+
     def left(self) -> tuple[float | None, int | None, int | None]:
         """Return what is left of the time, in seconds, the memory in bytes, and the steps, as the core takes them."""
         return (

@@ -26,12 +26,14 @@ from tests.all_laws import Budget
 from tests.correlated_plans import Plan, best_plan
 from tests.differential.oracles import LIMITS, must_have_ended
 from tests.exact_objectives import SLACK, exact_objective
-from tests.lotteries import ALPHAS, FINITE, LAWS, budgets, texts
+from tests.lotteries import ALPHAS, FINITE, SWEPT, budgets, texts
+from tests.lotteries import LAWS as OF_LAWS_ALONE
 from tests.scenarios import correlated_lotteries, correlated_problems, hedging_problems
 from tests.shares import share_of_examples
 
 SHARE = share_of_examples(5)
 
+LAWS = {**OF_LAWS_ALONE, **SWEPT}
 SWITCHES = [field.name for kind in (ScenarioSwitches, LawSwitches) for field in fields(kind)]
 FINITE_SWITCHES = ("one_price_first", "bound_mixes", "compare_boxes", "compare_envelopes", "use_cutoff")
 EXPONENTIAL = {

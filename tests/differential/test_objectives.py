@@ -32,8 +32,6 @@ from tests.strategies import problems
 
 SHARE = share_of_examples(8)
 
-LABELLED = {name: texts for name, texts in FAMILIES.items() if name != "evar"}
-"""Those that label searches are for, which know budgets and find several plans."""
 NO_BUDGET: Sequence[Budget] = ()
 OPTIONS: list[dict[str, str]] = [
     {},
@@ -78,7 +76,7 @@ def test_the_best_plan(family: str, problem: Problem, data: st.DataObject, optio
     judge(problem, exact_objective(text), NO_BUDGET, result, family)
 
 
-@pytest.mark.parametrize("family", LABELLED)
+@pytest.mark.parametrize("family", FAMILIES)
 @SHARE
 @given(problem=some_problems(), data=st.data(), keep=budgets(), options=st.sampled_from(OPTIONS))
 def test_the_best_plan_that_keeps_budgets(
@@ -110,7 +108,7 @@ def test_utilities_as_functions(name: str, problem: Problem, keep: Sequence[Budg
     judge(problem, of_utility(UTILITIES[name]), keep, result, "callable")
 
 
-@pytest.mark.parametrize("family", LABELLED)
+@pytest.mark.parametrize("family", FAMILIES)
 @SHARE
 @given(
     problem=some_problems(),
@@ -138,7 +136,7 @@ RULES = [field.name for field in fields(LabelSwitches)]
 def test_without_a_rule(
     switch: str, problem: Problem, data: st.DataObject, keep: Sequence[Budget], heuristic: str
 ) -> None:
-    text = data.draw(st.one_of(*LABELLED.values()))
+    text = data.draw(st.one_of(*FAMILIES.values()))
     outcome = last_of(
         search_labels(
             ground(problem),

@@ -53,6 +53,16 @@ class BudgetLabels(Labels):
         self._grid = finer
         return is_finer
 
+    def coarsen(self, limits: Limits) -> bool:
+        """Take a coarser grid for the budgets, and for an objective that has one."""
+        if isinstance(self._labels, LawLabels):
+            is_coarser = self._labels.coarsen(limits)
+            self._grid = self._labels.grid
+            return is_coarser
+        coarser = self._grid.coarser(limits)
+        self._grid = coarser or self._grid
+        return coarser is not None
+
     def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
         """Yield what searches with a single price find; their plans need not keep the budgets."""
         return self._labels.support(limits, share)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -49,6 +50,8 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
 
     is_supported = True
     """Whether searches with a single price for each action come first."""
+    seconds_to_value = 0.0
+    """What it took to work out the value of a plan at most: as long it takes once more when the search is over."""
 
     def __init__(
         self,
@@ -84,8 +87,12 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
     @property
     def is_done(self) -> bool:
         """Whether something has ended the run, or nothing is left to prove."""
+        return self.stopped is not None or self._is_proven
+
+    @property
+    def _is_proven(self) -> bool:
         is_full = len(self.plans) == self.options.count
-        return self.stopped is not None or self.bound == math.inf or (is_full and self.proven == len(self.plans))
+        return self.bound == math.inf or (is_full and self.proven == len(self.plans))
 
     def outcomes(self) -> Iterator[SearchOutcome]:
         """Go through the stages, and yield an outcome after every one that found a better plan, and at the end.
@@ -116,11 +123,22 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
             yield self.search()
 
     def search(self) -> bool:
-        """Search on the present grid; returns whether a better plan was found."""
+        """Search on the present grid; returns whether a better plan was found.
+
+        Where the memory is too small, a search on a coarser grid follows: it may prove more, and find another plan.
+        What was proven on either holds; the gap between that and the exact value of the plan says what is lost.
+        """
         self.options.upper_bound = None
         if self.options.count == 1 and self.plans:
             best = self.plans[0].value
             self.options.upper_bound = self.labels.worth_of(best - self._slack(best) / 2)
+        is_better = self._search_once()
+        while self.stopped is Status.MEMORY_LIMIT and not self._is_proven and self.labels.coarsen(self.limits):
+            is_better |= self._search_once()
+            self.stopped = self.stopped or Status.MEMORY_LIMIT
+        return is_better
+
+    def _search_once(self) -> bool:
         result = self.run_core()
         self.take(result.statistics, result.stop)
         self.unread = len(result.plans) < result.statistics.found
@@ -130,7 +148,8 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
     def run_core(self) -> _relax.LabelSearchResult:
         """Run the search in the core on the present grid, with the present options."""
         problem, valuation = self.grounding.handle, self.labels.valuation
-        return _relax.label_search(problem, valuation, self.names, self.options, *self.limits.left(), self.watch)
+        left = self.limits.sooner(2 * self.seconds_to_value).left()
+        return _relax.label_search(problem, valuation, self.names, self.options, *left, self.watch)
 
     def outcome(self) -> SearchOutcome:
         """Return how the searches ended together."""
@@ -170,7 +189,9 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         for trace in traces:
             if trace.cost is None or not self._keeps_budgets(trace):
                 continue
+            started = time.monotonic()
             key, plan = self._key(trace), ValuedTrace(trace, self.labels.value(trace))
+            self.seconds_to_value = max(self.seconds_to_value, time.monotonic() - started)
             known = self._found.setdefault(key, plan)
             if plan.value < known.value:
                 self._found[key] = plan
@@ -215,4 +236,5 @@ class NetworkRun(LabelRun):
         """Run the plan-based search in the core on the present grid."""
         self.plan_based.upper_bound, self.plan_based.tolerance = self.options.upper_bound, self.options.tolerance
         problem, valuation = self.grounding.handle, self.labels.valuation
-        return _relax.plan_based_search(problem, valuation, self.plan_based, *self.limits.left(), self.watch)
+        left = self.limits.sooner(2 * self.seconds_to_value).left()
+        return _relax.plan_based_search(problem, valuation, self.plan_based, *left, self.watch)

@@ -69,6 +69,14 @@ class Labels(ABC):
             LimitReached: a limit was reached.
         """
 
+    def coarsen(self, limits: Limits) -> bool:  # noqa: ARG002
+        """Take a coarser grid, for which less memory will do; returns false where there is none.
+
+        Raises:
+            LimitReached: a limit was reached.
+        """
+        return False
+
     def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
         """Yield what searches with a single price for each action find; here A* by the expected cost, or greedy search.
 

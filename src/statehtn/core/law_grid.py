@@ -26,6 +26,8 @@ EXACT_STEPS = 2**13
 FIRST_STEPS = 2**10
 """... and else so fine at first, each time `FINER` times finer, until it is exact, or has `MOST_STEPS`."""
 FINER = 8
+FEWEST_STEPS = 16
+"""Of the largest cost, where the memory is too small for more."""
 MOST_STEPS = 2**34
 """Sums of some thousand costs stay whole numbers in floating point."""
 MOST_CELLS = 2**16
@@ -92,6 +94,11 @@ class Grid:
         elif largest > step * MOST_CELLS:
             return None
         return Grid(step, self.exact_step, self.tail * SMALLER_TAIL)
+
+    def coarser(self, largest: float) -> Grid | None:
+        """Return a coarser grid, on which laws have fewer outcomes; None where hardly any would be left."""
+        step = self.step * FINER
+        return Grid(step, self.exact_step, self.tail) if largest > step * FEWEST_STEPS else None
 
     def steps(self, cost: float) -> int:
         """Return the cost in whole steps, rounded down; the float means the decimal that it prints as."""
@@ -171,6 +178,11 @@ class LawGrid:
     def finer(self, limits: Limits) -> LawGrid | None:
         """Return a finer one; None where there is none."""
         grid = self.grid.finer(self.largest)
+        return None if grid is None else LawGrid(self.grounding, grid, limits)
+
+    def coarser(self, limits: Limits) -> LawGrid | None:
+        """Return a coarser one; None where there is none."""
+        grid = self.grid.coarser(self.largest)
         return None if grid is None else LawGrid(self.grounding, grid, limits)
 
     @property

@@ -74,6 +74,12 @@ class LawLabels(Labels):
         self._reach = 2 * (self._reach or self.grid.largest)
         return is_tabled and self._reach <= MOST_TABLED * float(self.grid.grid.step)
 
+    def coarsen(self, limits: Limits) -> bool:
+        """Take a coarser grid."""
+        coarser = self.grid.coarser(limits)
+        self.grid = coarser or self.grid
+        return coarser is not None
+
     def law(self, trace: _relax.SearchResult) -> CostLaw:
         """Return the law of a plan that was found."""
         return self.grid.total(trace) or super().law(trace)

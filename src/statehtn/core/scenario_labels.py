@@ -96,6 +96,13 @@ class ScenarioLabels(Labels):
         self._reach = 2 * (self._reach or self._largest)
         return is_tabled and self._reach <= MOST_TABLED * float(self._grid.step)
 
+    def coarsen(self, limits: Limits) -> bool:
+        """Take a coarser grid; not where labels are totals, which are as large on any grid."""
+        coarser = None if self._is_certain else self._grid.coarser(self._largest)
+        if coarser is not None:
+            self._set_grid(coarser, limits)
+        return coarser is not None
+
     def support(self, limits: Limits, share: float = 0.25) -> Iterator[Support]:
         """Yield what searches with one price for each action find: by the mean, and by tangents of the objective.
 

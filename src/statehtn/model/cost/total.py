@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -63,6 +63,7 @@ def _packed_totals(steps: Sequence[Sequence[int]], weights: Sequence[Sequence[in
     The weights of all totals up to now stand beside each other in one large integer, in a field of the same width for
     every total that could be, so that one multiplication and one shift add an outcome to all of them. It is Kronecker's
     substitution for the product of polynomials; no field overflows, since no weight exceeds the product of all sums.
+    The widest summands come last: until then the integer is short.
     """
     least = sum(row[0] for row in steps)
     span = sum(row[-1] for row in steps) - least
@@ -70,13 +71,26 @@ def _packed_totals(steps: Sequence[Sequence[int]], weights: Sequence[Sequence[in
     if span >= MOST_TOTALS or span * width * sum(map(len, steps)) > MOST_BYTES:
         return None
     packed = 1
-    for row, factors in zip(steps, weights, strict=True):
-        packed = sum(
-            (packed * factor) << (8 * width * (step - row[0])) for step, factor in zip(row, factors, strict=True)
-        )
+    for _, row in sorted((row[-1][0], row) for row in _powers(steps, weights)):
+        packed = sum((packed * factor) << (8 * width * step) for step, factor in row)
     fields = packed.to_bytes((span + 1) * width, "little")
     found = (int.from_bytes(fields[place * width : (place + 1) * width], "little") for place in range(span + 1))
     return {least + place: weight for place, weight in enumerate(found) if weight}
+
+
+def _powers(steps: Sequence[Sequence[int]], weights: Sequence[Sequence[int]]) -> Iterator[list[tuple[int, int]]]:
+    """Yield the uncertain summands, each with its steps above the least one and their weights.
+
+    Equal ones of two outcomes, as long plans have many, are one: their sum is binomial.
+    """
+    equal = Counter(zip(map(tuple, steps), map(tuple, weights), strict=True))
+    for (row, factors), count in equal.items():
+        if len(row) == 2:
+            apart, (low, high) = row[1] - row[0], factors
+            yield [(apart * n, math.comb(count, n) * low ** (count - n) * high**n) for n in range(count + 1)]
+        elif len(row) > 2:
+            one = [(step - row[0], factor) for step, factor in zip(row, factors, strict=True)]
+            yield from [one] * count
 
 
 def _listed_totals(steps: Sequence[Sequence[int]], weights: Sequence[Sequence[int]]) -> dict[int, int] | None:
