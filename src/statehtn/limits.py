@@ -38,6 +38,8 @@ SECONDS_TO_READ = 1.0
 
 SECONDS_BETWEEN_LOOKS = 0.05
 """At the limits, while a library computes that knows of none."""
+SECONDS_TO_END = 0.5
+"""So long a library has to end after a limit, before it is told of it once more."""
 
 STOPS = (Status.TIME_LIMIT, Status.MEMORY_LIMIT, Status.INTERRUPTED)
 """The statuses of runs that something ended before they were done."""
@@ -168,7 +170,8 @@ def watched(limits: Limits) -> Iterator[None]:
         try:
             limits.check()
         except LimitReached:
-            signal.setitimer(signal.ITIMER_REAL, 0)  # once is enough
+            # Not at once again; but it may be lost, where it is raised in a destructor or a callback, say.
+            signal.setitimer(signal.ITIMER_REAL, SECONDS_TO_END, SECONDS_TO_END)
             raise
 
     handler = signal.signal(signal.SIGALRM, look)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import reduce
 from operator import or_
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 
 from statehtn.build import (
@@ -120,6 +121,7 @@ def with_root_types(problem: Problem) -> Problem:
     return replace(problem, domain=replace(problem.domain, types=TypeHierarchy(parents)))
 
 
+@pytest.mark.filterwarnings("ignore:.*no plan")
 @settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(problems().filter(problem_is_complete))
 def test_building_everything_again_gives_the_same_problem(problem: Problem) -> None:

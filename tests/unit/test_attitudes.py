@@ -172,6 +172,7 @@ def test_plans_that_tie_are_equally_good() -> None:
     ]
 
 
+@pytest.mark.filterwarnings("ignore:.*leads to no plan")
 def test_agents_without_a_plan() -> None:
     domain = "(define (domain d) (:task t :parameters ()) (:action a :parameters () :precondition (or)))"
     problem = statehtn.read_hddl_text(domain, "(define (problem p) (:domain d) (:htn :subtasks (t)) (:init))")

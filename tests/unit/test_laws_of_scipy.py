@@ -131,3 +131,22 @@ def test_a_limit_is_looked_at_while_a_library_computes() -> None:
     assert time.monotonic() < begin + 25
     assert signal.getsignal(signal.SIGALRM) is handler
     assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
+
+
+@pytest.mark.filterwarnings("ignore:Exception ignored:pytest.PytestUnraisableExceptionWarning")
+def test_a_limit_whose_exception_is_lost_comes_again() -> None:
+    begin = time.monotonic()
+
+    class Slow:
+        def __del__(self) -> None:
+            while time.monotonic() < begin + 20:
+                pass
+
+    def compute() -> None:
+        Slow()
+        while time.monotonic() < begin + 20:
+            pass
+
+    with pytest.raises(LimitReached), watched(Limits.starting_now(0.1)):
+        compute()
+    assert time.monotonic() < begin + 18

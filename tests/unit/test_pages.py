@@ -54,7 +54,8 @@ def test_wrong_commands_and_files_are_found(tmp_path: Path) -> None:
     for wrong in ("4\n...\n", "...\n4\n", "...\n5\n4\n...\n"):
         with pytest.raises(AssertionError):
             run_page(page(tmp_path, gaps.format(wrong)))
-    written = '```text title="a.txt"\nx\n```\n\n```python\nassert open("a.txt").read() == "x\\n"\n```\n'
+    read = 'import pathlib\nassert pathlib.Path("a.txt").read_text() == "x\\n"'
+    written = f'```text title="a.txt"\nx\n```\n\n```python\n{read}\n```\n'
     assert run_page(page(tmp_path, written)) == 2
     assert not (ROOT / "a.txt").exists()
     excerpt = '```lisp title="domains/av/p1.hddl"\n{}\n```\n'

@@ -205,6 +205,7 @@ def unsolvable() -> Problem:
     )
 
 
+@pytest.mark.filterwarnings("ignore:.*there is no plan")
 def test_without_a_plan_there_is_no_map() -> None:
     found = statehtn.attitude_map(unsolvable(), -1, 1)
     assert (found.status, len(found), found.gap, found.eps, found.runs) == (Status.UNSOLVABLE, 0, None, None, 1)

@@ -73,6 +73,7 @@ def constraints_as_preconditions(problem: Problem) -> Problem:
     return replace(problem, domain=replace(problem.domain, methods=methods))
 
 
+@pytest.mark.filterwarnings("ignore:subprocess .* is still running:ResourceWarning")  # which aries starts
 @pytest.mark.parametrize("name", ACCEPTED)
 def test_plans_are_accepted_by_aries(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     aries = pytest.importorskip("up_aries")

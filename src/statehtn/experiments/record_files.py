@@ -8,6 +8,7 @@ import json
 import os
 import shutil
 from collections.abc import Collection, Iterable, Sequence
+from contextlib import ExitStack, closing
 from pathlib import Path
 from types import TracebackType
 
@@ -45,14 +46,16 @@ class RecordFiles:
         self.json_name = str(Path(name).with_suffix(".jsonl"))
         if Path(name) == Path(self.json_name):
             raise UsageError(f"'{name}' is the name of the file beside the table; choose another, such as *.csv")
-        self._csv = _LineFile(name, csv_line(COLUMNS))
-        self._json = _LineFile(self.json_name, JSON_START)
-        self._rows = self._read_rows()
-        self._limits = self._read_limits()
-        self._csv.drop_incomplete_line()
-        self._json.drop_incomplete_line()
-        if not self._csv.lines:
-            self._csv.append(csv_line(COLUMNS))
+        with ExitStack() as opened:
+            self._csv = opened.enter_context(closing(_LineFile(name, csv_line(COLUMNS))))
+            self._json = opened.enter_context(closing(_LineFile(self.json_name, JSON_START)))
+            self._rows = self._read_rows()
+            self._limits = self._read_limits()
+            self._csv.drop_incomplete_line()
+            self._json.drop_incomplete_line()
+            if not self._csv.lines:
+                self._csv.append(csv_line(COLUMNS))
+            self._opened = opened.pop_all()
 
     def __enter__(self) -> RecordFiles:
         return self
@@ -60,8 +63,7 @@ class RecordFiles:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._csv.close()
-        self._json.close()
+        self._opened.close()
 
     def missing(self, runs: Sequence[Run]) -> list[Run]:
         """Return those of the runs that are still to be done.
@@ -150,14 +152,21 @@ class _LineFile:
             self._file = open(name, "a+b", buffering=0)  # noqa: SIM115 - it stays open
         except OSError as error:
             raise UsageError(f"cannot write '{name}': {error.strerror}") from None
+        with ExitStack() as opened:
+            opened.callback(self._file.close)
+            self._whole, self.lines = self._read(start)
+            opened.pop_all()
+
+    def _read(self, start: str) -> tuple[int, list[str]]:
+        """Lock the file; return how many bytes its whole lines are, and the lines."""
         if not _lock(self._file.fileno()):
-            raise UsageError(f"cannot write '{name}': another comparison is writing it")
+            raise UsageError(f"cannot write '{self.name}': another comparison is writing it")
         self._file.seek(0)
         content = self._file.readall()
         if not content.startswith(start.encode()) and not start.encode().startswith(content):
-            raise UsageError(f"'{name}' holds something else than a comparison's results; choose another --output")
-        self._whole = content.rfind(b"\n") + 1
-        self.lines = content[: self._whole].decode(errors="surrogateescape").split("\n")[:-1]
+            raise UsageError(f"'{self.name}' holds something else than a comparison's results; choose another --output")
+        whole = content.rfind(b"\n") + 1
+        return whole, content[:whole].decode(errors="surrogateescape").split("\n")[:-1]
 
     def drop_incomplete_line(self) -> None:
         """Cut off a last line that has no end."""
