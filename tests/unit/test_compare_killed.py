@@ -17,7 +17,7 @@ from statehtn.cli import main
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM
 
-EASY = 8
+EASY = 6
 PATIENCE = 20.0
 
 

@@ -131,7 +131,7 @@ def test_the_work_of_validation_is_linear_in_the_length_of_a_totally_ordered_pla
 
 
 def test_a_limit_ends_validation_wherever_it_is_reached(files: tuple[str, str]) -> None:
-    problem, long = read_hddl(*files), walk(5_000)
+    problem, long = read_hddl(*files), walk(1_000)
     for most in range(looks(problem, long)):
         with pytest.raises(LimitReached):
             validate(problem, long, CountedLimits(most=most))
