@@ -110,6 +110,20 @@ def test_a_goal_that_contradicts_itself_is_found_at_once(search: str, goal: str)
     assert outcome.status is Status.UNSOLVABLE
 
 
+def test_what_an_action_without_preconditions_makes_may_hold_with_all_that_is_reached_later() -> None:
+    """Whoever answers ends the ringing: that it rings again is known only if `ring` is looked at once more."""
+    domain = """
+    (define (domain telephone)
+      (:predicates (ringing) (answered))
+      (:action ring :parameters () :effect (ringing))
+      (:action answer :parameters () :precondition (ringing) :effect (and (answered) (not (ringing)))))
+    """
+    problem = """(define (problem p) (:domain telephone) (:init) (:goal (and (ringing) (answered)))
+        (:htn :ordered-subtasks (and (ring) (answer) (ring))))"""
+    outcome = find_plans(ground(read_hddl_text(domain, problem)), utility_for("neutral"))
+    assert outcome.status is Status.OPTIMAL
+
+
 def test_actions_that_are_never_possible_are_left_out() -> None:
     domain = """
     (define (domain doors)

@@ -18,6 +18,19 @@ PLAN_BASED = "tests/differential/test_plan_based.py"
 WALKS = "tests/differential/test_merged_sequences.py"
 RECURSION = "tests/differential/test_forced_recursion.py"
 PRECISION = "tests/differential/test_optimal_is_optimal.py"
+FINITE = "tests/differential/test_finite_objectives.py"
+FINITE_ALONE = f"{FINITE}::test_label_search_alone"
+FINITE_SEVERAL = f"{FINITE}::test_several_plans"
+LAWS = "tests/differential/test_law_objectives.py"
+CORRELATED = "tests/differential/test_correlated_costs.py"
+LABELS = "tests/differential/test_label_search.py"
+OBJECTIVES = "tests/differential/test_objectives.py"
+EXPONENTIALS = "tests/property/test_exponential_sums.py"
+DEVIATIONS = "tests/property/test_mean_deviation_sums.py"
+LAWS_ALONE = "tests/property/test_laws_on_a_grid.py"
+GRAPH_OF_LAWS = f"{LAWS}::test_no_plan_is_below_the_graph_of_laws"
+BUDGETS = (f"{LAWS}::test_budgets_are_kept", f"{OBJECTIVES}::test_the_best_plan_that_keeps_budgets")
+SCENARIOS_ALONE = f"{CORRELATED}::test_the_label_search_finds_the_best_plan_by_itself"
 
 
 @dataclass(frozen=True)
@@ -189,7 +202,7 @@ MUTATIONS = [
         "relax/search/label_space.cpp",
         "if (valuation_.worth(same->value) <= worth) {",
         "if (valuation_.worth(same->value) != kNoWorth) {",
-        (BEST_PLANS,),
+        ("tests/unit/test_top_plans.py", BEST_PLANS),
     ),
     Mutation(
         "prices: those beyond the cap of a scale cost as much as it",
@@ -203,6 +216,125 @@ MUTATIONS = [
         "src/statehtn/core/scale.py",
         "min(math.floor(math.ldexp(price, exponent)), most)",
         "min(math.ceil(math.ldexp(price, exponent)), most)",
-        (PRECISION, "tests/unit/test_precision.py"),
+        ("tests/unit/test_precision.py", PRECISION),
+    ),
+    Mutation(
+        "labels: inherited bounds of what is to come are not less by what the step costs",
+        "relax/search/label_search.cpp",
+        "to[price] = std::max(to[price], from[price] - edge.costs[price]);",
+        "to[price] = std::max(to[price], from[price]);",
+        (LABELS, FINITE, LAWS),
+    ),
+    Mutation(
+        "labels: where several plans are wanted, one way that is as good makes another superfluous",
+        "relax/search/label_space.cpp",
+        "if (limits_labels_ && lists_.size() == count_) {",
+        "if (limits_labels_ && lists_.size() == 1) {",
+        (FINITE_SEVERAL, OBJECTIVES),
+    ),
+    Mutation(
+        "labels: what a new one makes superfluous goes, whether it is so with several plans wanted or not",
+        "relax/search/label_space.cpp",
+        "            if (is_superfluous(other, kept, known)) {\n",
+        "            if (is_superfluous(other, kept, known) || count_ > 1) {\n",
+        (FINITE_SEVERAL, OBJECTIVES),
+    ),
+    Mutation(
+        "vectors of sums: a way with a lower first sum is as good",
+        "relax/valuations/include/relax/valuations/sum_vectors.hpp",
+        "return std::ranges::equal((*this)[one], (*this)[other], std::less_equal<>());",
+        "return (*this)[one].front() <= (*this)[other].front();",
+        (FINITE_ALONE, FINITE, OBJECTIVES),
+    ),
+    Mutation(
+        "sums of a line and an exponential: ways are compared for the least cost to come alone",
+        "relax/valuations/exponential_sums.cpp",
+        "return cover.covers(low, std::max(low, most_log(sums, to_come.least, 0) - log));",
+        "return cover.covers(low, low);",
+        (EXPONENTIALS, FINITE_ALONE, OBJECTIVES),
+    ),
+    Mutation(
+        "sums of exponentials: the rising ones are compared for the least cost to come alone",
+        "relax/valuations/exponential_sums.cpp",
+        "            log = std::max(log, most_log(right, to_come.least, j));\n",
+        "",
+        (EXPONENTIALS, FINITE_ALONE, OBJECTIVES),
+    ),
+    Mutation(
+        "mean and deviation: ways are compared for the least variance to come alone",
+        "relax/valuations/mean_deviation.cpp",
+        "return cover.covers(low, std::max(low, high));",
+        "return cover.covers(low, low);",
+        (DEVIATIONS, FINITE_ALONE, OBJECTIVES),
+    ),
+    Mutation(
+        "laws: the increasing convex order is enough for every objective",
+        "relax/valuations/law_valuation.cpp",
+        "if (options.convex_order && objective.is_concave()) {",
+        "if (options.convex_order) {",
+        (LAWS_ALONE, LAWS, OBJECTIVES),
+    ),
+    Mutation(
+        "laws: the stochastic order is asked about the least cost alone",
+        "relax/valuations/law_orders.cpp",
+        "        if (one.above_of(from) > other.above[j] + kProbabilityTolerance) {\n",
+        "        if (j == 0 && one.above_of(from) > other.above[j] + kProbabilityTolerance) {\n",
+        (LAWS_ALONE, LAWS, OBJECTIVES),
+    ),
+    Mutation(
+        "bounds by laws: what is to come costs its mean for every objective",
+        "relax/valuations/include/relax/valuations/law_valuation.hpp",
+        "return options_.mean_bound && objective_->is_concave();",
+        "return options_.mean_bound;",
+        (LAWS, OBJECTIVES),
+    ),
+    Mutation(
+        "bounds by laws: the least cost to come is raised by the mean one",
+        "relax/valuations/law_valuation.cpp",
+        "return std::max(least, graph != nullptr ? floor_for_mean(*graph, mean) : mean);",
+        "return std::max(least, graph != nullptr ? floor_for_mean(*graph, mean) : least + mean);",
+        (LAWS, OBJECTIVES),
+    ),
+    Mutation(
+        "graph of laws: a task has the law of its first method",
+        "relax/valuations/graph_of_laws.cpp",
+        "law = is_known ? highest(law, sum) : sum;",
+        "law = is_known ? law : sum;",
+        (GRAPH_OF_LAWS, LAWS, OBJECTIVES),
+    ),
+    Mutation(
+        "budgets: of two ways the probability to exceed what is left of the budget is compared, at that point alone",
+        "relax/valuations/budgets.cpp",
+        "return is_never_more(left, right, budget.steps - least);",
+        "return left.above_cost(budget.steps - least) <= right.above_cost(budget.steps - least);",
+        BUDGETS,
+    ),
+    Mutation(
+        "budgets: those that a way keeps so far are kept",
+        "relax/valuations/budgets.cpp",
+        "return keeps_all ? inner_.worth(values_[value].inner) : kNoWorth;",
+        "return keeps_all || true ? inner_.worth(values_[value].inner) : kNoWorth;",
+        BUDGETS,
+    ),
+    Mutation(
+        "scenarios: a way is as good as another one if its law is in the first scenario",
+        "relax/valuations/scenario_laws.cpp",
+        "if (laws(one)[k] == laws(other)[k]) {",
+        "if (k > 0 || laws(one)[k] == laws(other)[k]) {",
+        (SCENARIOS_ALONE, CORRELATED),
+    ),
+    Mutation(
+        "scenarios: a way is as good as another one if its total is in the last scenario",
+        "relax/valuations/scenario_totals.cpp",
+        "if (ones[k] > others[k] && !is_decided) {",
+        "if (k + 1 == ones.size() && ones[k] > others[k] && !is_decided) {",
+        (SCENARIOS_ALONE, CORRELATED),
+    ),
+    Mutation(
+        "scenarios: with the least costs to come, all are over",
+        "relax/valuations/scenario_totals.cpp",
+        "options().decided_scenarios && static_cast<double>(add_bounds(others[k], least[k])) > last_;",
+        "options().decided_scenarios && static_cast<double>(add_bounds(others[k], least[k])) > last_ / 2;",
+        (SCENARIOS_ALONE, CORRELATED),
     ),
 ]

@@ -5,6 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import statehtn
 from statehtn import Problem, Result, Status
@@ -179,3 +181,15 @@ def test_scales() -> None:
     assert Scale.after(1e100, 2.0) == Scale.after(None, 2.0)
     assert Scale.after(5e-324, 5e-324).units([5e-324]) == [2**50]
     assert Scale.first([1e-300, 1e300]).cost(2**62) > 1e-300
+
+
+PRICES = st.lists(st.floats(0.0, 1e300) | st.floats(0.0, 100.0), min_size=1, max_size=5)
+
+
+@given(prices=PRICES, bound=st.floats(1e-200, 1e200), best=st.none() | st.floats(1e-200, 1e200))
+def test_prices_are_rounded_down(prices: list[float], bound: float, best: float | None) -> None:
+    """By less than a unit, or to one unit beyond the cap: a bound of their sums is a bound of the true costs."""
+    for scale in (Scale.first(prices), Scale.after(best, bound)):
+        for price, units in zip(prices, scale.units(prices), strict=True):
+            exact = Fraction(price) * Fraction(2) ** scale.exponent
+            assert units == min(exact // 1, scale.cap + 1)

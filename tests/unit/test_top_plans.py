@@ -68,6 +68,33 @@ def words(result: TopPlans) -> list[str]:
     return [" ".join(step.action for step in ranked.plan.steps) for ranked in result]
 
 
+# `close` makes what both others cost depend on their order; before it `second` might be free for all that bounds know.
+TWO_ORDERS = """
+(define (domain d) (:predicates (open) (one) (two)) (:functions (total-cost))
+  (:action close :parameters () :effect (not (open)))
+  (:action first :parameters () :effect (and (one) (when (two) (increase (total-cost) 1))))
+  (:action second :parameters () :effect (and (two)
+    (when (and (not (open)) (one)) (increase (total-cost) 6))
+    (when (and (not (open)) (not (one))) (increase (total-cost) 2)))))
+"""
+
+
+@pytest.mark.parametrize("k", [1, 2])
+@pytest.mark.parametrize(
+    ("then", "order"), [("", ""), ("(4 (close))", "(< 2 4) (< 3 4)")], ids=["a plan", "a node on the way"]
+)
+def test_the_cheaper_order_of_the_same_actions_may_be_found_last(then: str, order: str, k: int) -> None:
+    problem = statehtn.read_hddl_text(
+        TWO_ORDERS,
+        f"""(define (problem p) (:domain d) (:init (open)) (:htn
+          :subtasks (and (1 (close)) (2 (first)) (3 (second)) {then})
+          :ordering (and (< 1 2) (< 1 3) {order})))""",
+    )
+    result = statehtn.top_plans(problem, k, distinct="multiset", heuristic="blind", time_limit=20)
+    assert [ranked.risk_cost for ranked in result] == [3.0]
+    assert words(result)[0].startswith("close second first")
+
+
 def test_decompositions_of_the_same_actions_are_one_plan() -> None:
     methods = """
     t :ordered-subtasks (and (u) (pay))
