@@ -55,9 +55,11 @@ def format_sources(session: nox.Session) -> None:
 
 @nox.session
 def docs(session: nox.Session) -> None:
-    """Build the documentation's site in site/, warnings as errors."""
+    """Build the documentation's site in site/, warnings as errors, and the manual page site/statehtn.1."""
     install(session, "docs")
     session.run("mkdocs", "build", "--strict", *session.posargs, env={"NO_MKDOCS_2_WARNING": "1"})
+    source = ("--module", "statehtn.cli.arguments", "--function", "make_parser", "--prog", "statehtn")
+    session.run("argparse-manpage", *source, "--project-name", "statehtn", "--output", "site/statehtn.1")
 
 
 @nox.session

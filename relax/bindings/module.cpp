@@ -1,7 +1,20 @@
 #include "bindings.hpp"
 
+namespace {
+
+#if defined(__clang__)
+constexpr const char* kCompiler = "Clang " __clang_version__;
+#elif defined(__GNUC__)
+constexpr const char* kCompiler = "GCC " __VERSION__;
+#else
+constexpr const char* kCompiler = "an unknown compiler";
+#endif
+
+}  // namespace
+
 NB_MODULE(_relax, module) {
     module.doc() = "The compiled core of statehtn: grounding, heuristics and search.";
+    module.def("compiler", [] { return kCompiler; }, "By what the core was compiled.");
     bind_lifted_problem(module);
     bind_ground_problem(module);
     bind_priced_problem(module);

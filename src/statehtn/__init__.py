@@ -17,6 +17,7 @@ from statehtn.model.status import Status
 
 if TYPE_CHECKING:
     __version__: str
+    from statehtn.atlas.survey import Atlas, survey
     from statehtn.attitudes import AttitudeComparison
     from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
     from statehtn.build.cost_file import read_costs
@@ -77,6 +78,7 @@ __all__ = [
     "OBJECTIVES",
     "SEARCHES",
     "SOLVERS",
+    "Atlas",
     "Attitude",
     "AttitudeComparison",
     "AttitudeMap",
@@ -148,6 +150,7 @@ __all__ = [
     "register",
     "relax",
     "relax_to_pddl",
+    "survey",
     "tabulate_costs",
     "to_unified_planning",
     "top_plans",
@@ -161,6 +164,7 @@ __all__ = [
 ]
 
 _MODULES_FOR_LATER = {
+    "atlas.survey": ("Atlas", "survey"),
     "attitudes": ("AttitudeComparison",),
     "build": ("ProblemBuilder", "chance", "equal", "exists", "forall", "when", "with_cost"),
     "build.cost_file": ("read_costs",),

@@ -3,6 +3,9 @@
 import enum
 from collections.abc import Sequence
 
+def compiler() -> str:
+    """By what the core was compiled."""
+
 class FormulaKind(enum.Enum):
     And = 0
 

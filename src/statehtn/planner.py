@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 
 from statehtn.attitudes import AttitudeComparison, compared_objectives
@@ -245,8 +246,8 @@ class Planner:
 
     def attitude_map(
         self,
-        low: float,
-        high: float,
+        low: float = -math.inf,
+        high: float = math.inf,
         *,
         eps: float | None = None,
         resolution: float = RESOLUTION,
@@ -263,8 +264,9 @@ class Planner:
         alphas that are searched, bounds say how far from optimal a plan may be.
 
         Args:
-            low: the least alpha; `-math.inf`: the agent to whom the least possible cost counts alone.
-            high: the largest, above it; `math.inf`: the agent to whom the largest possible cost counts alone.
+            low: the least alpha; `-math.inf`, the default: the agent to whom the least possible cost counts alone.
+            high: the largest, above it; `math.inf`, the default: the agent to whom the largest possible cost counts
+                alone.
             eps: how much worse than the best one a plan may be, as a certainty equivalent, in the domain's unit; where
                 it is not given, a thousandth of what the least certainty equivalent gains on the interval.
             resolution: the width of the intervals in which the best plan changes, as a part of the alpha.

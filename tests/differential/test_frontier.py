@@ -56,7 +56,7 @@ def of_all_plans(problem: Problem, risk: str) -> list[Pair]:
 
 def must_be_the_frontier(found: Frontier, expected: list[Pair]) -> None:
     """Nothing is missing but what the gaps allow; and nothing is there that is not on it, if it is complete."""
-    pairs = [(point.mean, point.risk) for point in found]
+    pairs = [(point.mean, point.risk) for point in found.points]
     for (mean, risk), (other_mean, other_risk) in itertools.pairwise(pairs):
         assert mean < other_mean
         assert risk > other_risk
@@ -95,7 +95,7 @@ def test_frontier_within_a_limit(problem: Problem, risk: str, steps: int) -> Non
     found = find_frontier(Session(problem), risk, Settings.of(), Limits(steps=steps))
     assert (found.stopped is None) or found.status is not Status.OPTIMAL
     expected = of_all_plans(problem, risk)
-    for point in found:
+    for point in found.points:
         assert any(mean <= point.mean + CLOSE and risk <= point.risk + CLOSE for mean, risk in expected)
     if found.status is Status.OPTIMAL:
         must_be_the_frontier(found, expected)
@@ -104,14 +104,15 @@ def test_frontier_within_a_limit(problem: Problem, risk: str, steps: int) -> Non
 def test_the_vehicle(p1: Problem) -> None:
     found = statehtn.frontier(p1, "cvar 0.9")
     assert (found.status, found.risk, found.gaps) == (Status.OPTIMAL, "cvar 0.9", (0,))
-    assert [point.mean for point in found] == pytest.approx([18.35, 19.4])
-    assert [point.risk for point in found] == pytest.approx([22.532, 19.4])
+    assert [point.mean for point in found.points] == pytest.approx([18.35, 19.4])
+    assert [point.risk for point in found.points] == pytest.approx([22.532, 19.4])
     assert repr(found) == "<frontier of mean and cvar 0.9: optimal, 2 plans>"
     assert str(found).splitlines()[0].split() == ["steps", "mean", "cvar", "0.9", "gap", "before"]
     assert "<table" in found._repr_html_()
-    assert found[:1] == (found[0],)
+    assert found[:1] == [found[0]]
     data = json.loads(json.dumps(found.to_dict(), allow_nan=False))
     assert [len(point["plan"]) for point in data["points"]] == [9, 9]
+    assert data["points"] == list(found)
 
 
 def test_a_limit_says_that_plans_may_be_missing(p1: Problem) -> None:

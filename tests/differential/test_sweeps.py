@@ -98,7 +98,7 @@ def test_map(problem: Problem, ends: tuple[float, float], part: float | None, sl
     assert found.gap is not None
     assert found.gap <= found.eps
     assert part is None or found.eps == part
-    assert [found[0].low, found[-1].high] == list(ends)
+    assert [found.pieces[0].low, found.pieces[-1].high] == list(ends)
     must_be_in_order(found)
     must_be_within_the_gap(problem, found, slopes)
 
@@ -120,7 +120,7 @@ def test_map_within_a_limit(problem: Problem, steps: int, slopes: list[str]) -> 
 
 def must_be_in_order(found: AttitudeMap) -> None:
     assert len(found.breaks) == len(found) - 1
-    for left, right, point in zip(found, found[1:], found.breaks, strict=False):
+    for left, right, point in zip(found.pieces, found.pieces[1:], found.breaks, strict=False):
         assert left.low <= left.high == right.low <= right.high
         assert point.low <= right.low <= point.high
         assert left.curve != right.curve

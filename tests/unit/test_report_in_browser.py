@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,18 +9,14 @@ import pytest
 
 from statehtn.cli import main
 from statehtn.experiments.report.svg import COLOURS
+from tests.browser import CHROMIUM, DESKTOP, PHONE, browser_of, opened
 from tests.regression.paper_tables import problem
 from tests.results import invented, planned, write
 
 pytest.importorskip("matplotlib", reason="the report draws")
 pytest.importorskip("jinja2", reason="the report needs it")
-playwright = pytest.importorskip("playwright.sync_api", reason="the browser is driven by playwright")
+pytest.importorskip("playwright.sync_api", reason="the browser is driven by playwright")
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-FLAGS = ["--no-sandbox", "--disable-background-networking"]
-PATIENCE = 120_000  # milliseconds: a machine that is busy with other things is no mistake of the page
-DESKTOP = {"width": 1280, "height": 900}
-PHONE = {"width": 390, "height": 844}
 LONG_NAME = "a-domain/with-a-name-as-long-as-those-of-the-competition-and-no-place-to-break-it-2020-total-order"
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium (Debian/Ubuntu: apt install chromium)")
@@ -29,10 +24,7 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium (
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS, timeout=PATIENCE)
-        yield browser
-        browser.close()
+    yield from browser_of()
 
 
 @pytest.fixture(scope="module")
@@ -53,17 +45,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> str:
 @pytest.fixture
 def page(browser: Any, url: str, request: pytest.FixtureRequest) -> Iterator[Any]:
     """The report, opened without a network; what it asked for and complained of is kept in `page.heard`."""
-    viewport = getattr(request, "param", DESKTOP)
-    context = browser.new_context(viewport=viewport, offline=True, reduced_motion="reduce")
-    context.set_default_timeout(PATIENCE)
-    page = context.new_page()
-    page.heard = []
-    page.on("console", lambda message: page.heard.append(message.text))
-    page.on("pageerror", lambda error: page.heard.append(str(error)))
-    page.on("request", lambda asked: page.heard.append(asked.url))
-    page.goto(url)
-    yield page
-    context.close()
+    yield from opened(browser, url, getattr(request, "param", DESKTOP))
 
 
 def column(page: Any, number: int) -> list[str]:

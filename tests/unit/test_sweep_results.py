@@ -46,15 +46,14 @@ def curves(p1: Problem) -> list[PlanCurve]:
 def test_the_map_of_the_vehicle_has_the_best_of_all_plans(p1: Problem, curves: list[PlanCurve]) -> None:
     found = statehtn.attitude_map(p1, -math.inf, math.inf)
     assert (found.status, found.stopped) == (Status.OPTIMAL, None)
-    assert [piece.expected_cost for piece in found] == pytest.approx([22.8, 18.35, 18.35, 19.4])
-    assert [(point.low, point.high) for point in found.breaks] == [
-        (pytest.approx(-0.48, abs=1e-3), pytest.approx(-0.48, abs=1e-3)),
-        (0, 0),  # two plans have the same mean
-        (pytest.approx(0.384, abs=1e-3), pytest.approx(0.384, abs=1e-3)),
-    ]
+    assert [piece.expected_cost for piece in found.pieces] == pytest.approx([22.8, 18.35, 18.35, 19.4])
+    for point, at in zip(found.breaks, (-0.480152, 0, 0.384175), strict=True):  # at 0 two plans have the same mean
+        assert point.low <= point.high <= point.low + 1e-6
+        assert point.low == pytest.approx(at, abs=1e-6)
     assert found.gap is not None
     assert found.eps is not None
-    assert found.gap <= found.eps == pytest.approx(1e-3 * (19.4 - 5.5))
+    assert found.gap == 0  # all plans are known
+    assert found.eps == pytest.approx(1e-3 * (19.4 - 5.5))
     for slope in SLOPES:
         best = min(curve.at(slope) for curve in curves)
         assert best - 1e-9 <= found.at(slope).certainty_equivalent(slope) <= best + found.at(slope).gap + 1e-9
@@ -65,7 +64,7 @@ def test_break_points_hold_the_crossings_of_the_best_plans(p1: Problem, curves: 
     found = statehtn.attitude_map(p1, 0.1, 1, resolution=1e-6)
     (point,) = found.breaks
     assert point.high - point.low <= 1e-6
-    for slope, piece in ((point.low, found[0]), (point.high, found[1])):
+    for slope, piece in ((point.low, found.pieces[0]), (point.high, found.pieces[1])):
         assert piece.certainty_equivalent(slope) == pytest.approx(min(curve.at(slope) for curve in curves), rel=1e-9)
 
 
@@ -137,11 +136,11 @@ def test_a_limit_leaves_what_is_known(seconds: float) -> None:
     assert found.stopped is Status.TIME_LIMIT
     if found.pieces:
         assert found.status is Status.SOLVED
-        assert (found[0].low, found[-1].high) == (-1, 1)
+        assert (found.pieces[0].low, found.pieces[-1].high) == (-1, 1)
         assert "the sweep was ended before it was done: time-limit" in str(found)
-        worst = found[-1].certainty_equivalent(1)
+        worst = found.pieces[-1].certainty_equivalent(1)
         assert found.gap is not None
-        assert worst - found[-1].gap <= 1e9
+        assert worst - found.pieces[-1].gap <= 1e9
     else:
         assert found.status is Status.TIME_LIMIT
         assert repr(found) == str(found) == "<attitude map from -1 to 1: time-limit, no plan>"
@@ -178,7 +177,7 @@ def test_an_interruption_between_two_runs_loses_nothing(p1: Problem, monkeypatch
             patched.setattr(PlanCurve, "at", at)
             found = statehtn.attitude_map(p1, -1, 1)
         assert (found.status, found.stopped) == (Status.SOLVED, Status.INTERRUPTED)
-        assert (found[0].low, found[-1].high) == (-1, 1)
+        assert (found.pieces[0].low, found.pieces[-1].high) == (-1, 1)
         with monkeypatch.context() as patched:
             calls = itertools.count(1)
             patched.setattr(PlanCurve, "at", functools.partialmethod(at, calls=calls, after=after))
@@ -230,10 +229,13 @@ def test_what_is_wrong_is_said(p1: Problem) -> None:
 def test_maps_are_data_and_are_shown(p1: Problem) -> None:
     found = statehtn.attitude_map(p1, -math.inf, 1, eps=0.5)
     data = json.loads(json.dumps(found.to_dict(), allow_nan=False))
-    assert (data["low"], data["high"], data["status"], data["eps"]) == (None, 1, "optimal", 0.5)
-    assert [len(piece["plan"]) for piece in data["pieces"]] == [piece.found.length for piece in found]
-    assert found[:2] == (found[0], found[1])
-    assert repr(found[0]).startswith("<alpha from -inf to -0.4")
+    assert (data["alpha_from"], data["alpha_to"], data["status"], data["eps"]) == (None, 1, "optimal", 0.5)
+    assert [len(row["plan"]) for row in data["intervals"]] == [piece.found.length for piece in found.pieces]
+    assert data["intervals"][1:] == found[1:]
+    assert found[:2] == [found[0], found[1]]
+    assert (found[0]["alpha_from"], found[0]["alpha_to"]) == (-math.inf, found.pieces[0].high)
+    assert found[0]["plan"][0] == "(start)"
+    assert repr(found.pieces[0]).startswith("<alpha from -inf to -0.4")
     assert "alpha from" in found._repr_html_()
 
 

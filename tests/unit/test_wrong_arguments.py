@@ -85,6 +85,7 @@ def calls(folder: Path) -> dict[str, Call]:
             [problem, -0.5, 0.5],
             {"eps": 0.5, "resolution": 0.1, "solver": "state", "heuristic": "lmcut"} | limits,
         ),
+        "survey": (statehtn.survey, [problem, -0.5, 0.5], {**limits}),
         "validate": (statehtn.validate, [problem, plan], {}),
         "read_hddl": (statehtn.read_hddl, [folder / "d", folder / "p"], {"strict": False}),
         "read_hddl_text": (statehtn.read_hddl_text, [DOMAIN, PROBLEM], {"domain_file": "d", "problem_file": "p"}),

@@ -7,8 +7,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
+from statehtn.cli.completion_command import add_completion
+from statehtn.cli.formats import FORMATS
 from statehtn.cli.model_arguments import add_check, add_why
 from statehtn.cli.parser import Parser
+from statehtn.cli.risk_arguments import add_atlas, add_attitude, add_compare_attitudes
 from statehtn.cli.shared_options import add_agent, add_inputs, add_keep, add_limits, add_objective, count
 from statehtn.cli.streams import emit
 from statehtn.compatible import HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES
@@ -26,9 +29,13 @@ class _ShowVersion(argparse.Action):
     """Print the version; it is looked up only when it is asked for."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object, **__: object) -> None:
-        import statehtn
+        import platform
 
-        emit(f"statehtn {statehtn.__version__}")
+        import statehtn
+        from statehtn.core.compiler import COMPILER
+
+        python = f"Python {platform.python_version()} on {platform.system()} {platform.machine()}"
+        emit(f"statehtn {statehtn.__version__} (core: {COMPILER}; {python})")
         parser.exit()
 
 
@@ -39,23 +46,38 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
         UsageError: the command line makes no sense.
         SystemExit: help or the version was asked for and printed.
     """
+    parser, commands = _parsers()
+    chosen = next((commands.choices[word] for word in arguments if word in commands.choices), parser)
+    chosen.check_options(arguments)
+    return _with_stdin(parser.parse_args(arguments))
+
+
+def make_parser() -> Parser:
+    """Return the parser of the whole command line, for what is made of it: completion, and a manual page."""
+    return _parsers()[0]
+
+
+def _parsers() -> tuple[Parser, argparse._SubParsersAction[Parser]]:
     parser = Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
     commands = parser.add_subparsers(
-        dest="command", required=True, metavar="plan|top|validate|check|why|compare-attitudes|compare|report|graph"
+        dest="command",
+        required=True,
+        metavar="plan|top|validate|check|why|compare-attitudes|atlas|attitude|compare|report|graph|completion",
     )
     _add_plan(commands)
     _add_top(commands)
     _add_validate(commands)
     add_check(commands)
     add_why(commands)
-    _add_compare_attitudes(commands)
+    add_compare_attitudes(commands)
+    add_atlas(commands)
+    add_attitude(commands)
     _add_compare(commands)
     _add_report(commands)
     _add_graph(commands)
-    chosen = next((commands.choices[word] for word in arguments if word in commands.choices), parser)
-    chosen.check_options(arguments)
-    return _with_stdin(parser.parse_args(arguments))
+    add_completion(commands)
+    return parser, commands
 
 
 def _with_stdin(options: argparse.Namespace) -> argparse.Namespace:
@@ -120,7 +142,14 @@ def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
     output = parser.add_argument_group("output")
     output.add_argument("--output", metavar="FILE", help="write the plan with its decomposition (IPC 2020 format)")
     form = output.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    form.add_argument(
+        "--format",
+        choices=FORMATS,
+        default="table",
+        help="what to print: the result as a table (default) or as one JSON object, the plan's actions as CSV, or the "
+        "plan with its decomposition in the IPC 2020 format",
+    )
+    form.add_argument("--json", dest="format", action="store_const", const="json", help="short for --format json")
     form.add_argument("--quiet", action="store_true", help="print the plan's actions only, one per line")
 
 
@@ -175,37 +204,6 @@ def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:
     parser.add_argument("plan", metavar="PLAN", help="plan file; - for standard input")
     add_limits(parser)
     parser.add_argument("--json", action="store_true", help="print the verdict as one JSON object")
-
-
-def _add_compare_attitudes(commands: argparse._SubParsersAction[Parser]) -> None:
-    parser = commands.add_parser(
-        "compare-attitudes",
-        help="show the plans of several agents side by side",
-        description="Plan for risk-averse, neutral and seeking agents, or by any objectives, and show where their "
-        "plans part, what each plan would cost the other agents, and why each does not do what its neighbour does.",
-        epilog="Exit codes: as of 'statehtn plan', of the first agent that has no plan; 0 if all have one.",
-        allow_abbrev=False,
-    )
-    add_inputs(parser)
-    parser.add_argument(
-        "--alpha",
-        type=float,
-        nargs="+",
-        metavar="A",
-        help="how much the averse and the seeking agents care, per unit of cost; several for more agents; default: 1",
-    )
-    parser.add_argument(
-        "--objective",
-        action="extend",
-        nargs="+",
-        metavar="TEXT",
-        help="what to compare in the place of attitudes, such as neutral 'cvar 0.95'; repeatable",
-    )
-    add_keep(parser)
-    parser.add_argument("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of the search in 'statehtn plan'")
-    parser.add_argument("--search", choices=("astar", "anytime", "greedy"), default="astar", help="default: astar")
-    add_limits(parser, "seconds for reading, and then for each agent")
-    parser.add_argument("--json", action="store_true", help="print the comparison as one JSON object")
 
 
 def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:

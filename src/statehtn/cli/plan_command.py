@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from contextlib import suppress
 from functools import partial
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
+from statehtn.cli.formats import printed
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import objective_in
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
 from statehtn.compatible import switches_in
+from statehtn.display.words import ending
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
@@ -46,8 +47,9 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
     )
     inputs = (options.domain, options.problem, options.costs)
     output = None if options.output is None else OutputFile(options.output, inputs)
-    if output and output.is_stdout and options.json:
-        raise UsageError("both --json and the plan of --output would go to standard output; leave out one of them")
+    if output and output.is_stdout and options.format != "table":
+        asked = f"--format {options.format}"
+        raise UsageError(f"both {asked} and the plan of --output would go to standard output; leave out one of them")
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
     keeper = _PlanKeeper(output, limits)
     session = Session(partial(read_problem, options))
@@ -61,8 +63,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
     except KeyboardInterrupt:  # between two phases
         pass
     keeper.finish(result, session.problem)
-    _print(result, options, beside=output is not None and output.is_stdout)
-    if result.status is Status.UNSOLVABLE and session.problem is not None and not (options.json or options.quiet):
+    _print(result, session.problem, options, beside=output is not None and output.is_stdout)
+    if result.status is Status.UNSOLVABLE and session.problem is not None and options.format == "table" and not options.quiet:
         _say_why(result, session.problem, limits)
     if keeper.failure is not None:
         raise keeper.failure
@@ -113,17 +115,14 @@ def _say_why(result: Result, problem: Problem, limits: Limits) -> None:
     emit("'statehtn why' with the same files says more")
 
 
-def _print(result: Result, options: argparse.Namespace, beside: bool) -> None:
+def _print(result: Result, problem: Problem | None, options: argparse.Namespace, beside: bool) -> None:
     """Print the result; on standard error, for people, if it stands `beside` a plan on standard output."""
-    if options.json:
-        emit(json.dumps(result.to_dict(), allow_nan=False))
-    elif options.quiet:
+    if options.quiet:
         if result.steps and not beside:
             emit_lines(str(priced.step) for priced in result.steps)
-    else:
-        from statehtn.display.result import readable_result
-
-        if beside:
-            say(readable_result(result, sys.stderr), raw=True)
-        else:
-            emit(readable_result(result, sys.stdout), raw=True)
+        return
+    text = printed(result, problem, options.format, sys.stderr if beside else sys.stdout)
+    if text is not None:
+        (say if beside else emit)(text, raw=options.format == "table")
+    elif not result:
+        say(ending(result))

@@ -58,6 +58,18 @@ def _run(options: argparse.Namespace) -> ExitCode:
             from statehtn.cli.attitudes_command import run_compare_attitudes
 
             return run_compare_attitudes(options)
+        case "atlas":
+            from statehtn.cli.atlas_command import run_atlas  # what it needs would slow down the others
+
+            return run_atlas(options)
+        case "attitude":
+            from statehtn.cli.attitude_command import run_attitude
+
+            return run_attitude(options)
+        case "completion":
+            from statehtn.cli.completion_command import run_completion
+
+            return run_completion(options)
         case "graph":
             from statehtn.cli.graph_command import run_graph  # what it needs would slow down the others
 

@@ -47,8 +47,13 @@ class Answer:
 
     def __str__(self) -> str:
         least, most = self.certain
-        between = f"{least:g}" if least == most else f"{least:g} to {most:g}"
-        return f"{between} for {self.lottery}: alpha {_interval_text(self.low, self.high)}"
+        if math.isinf(most):
+            between = f"rather {least:g} than"
+        elif math.isinf(least):
+            between = f"not rather {most:g} than"
+        else:
+            between = f"{least:g} for" if least == most else f"{least:g} to {most:g} for"
+        return f"{between} {self.lottery}: alpha {_interval_text(self.low, self.high)}"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -112,7 +117,8 @@ def alpha_of(certain: Certain | Sequence[Certain], lottery: CostLaw | Sequence[C
 
     Args:
         certain: the certain cost, positive, in the unit of the lottery; two numbers, as a tuple, where the person would
-            rather pay the first and rather take the lottery than pay the second. A list of them for several answers.
+            rather pay the first and rather take the lottery than pay the second; one of them is infinite where only
+            the other one was said. A list of them for several answers.
         lottery: the law of the uncertain cost; a list of as many for several answers.
 
     Raises:
@@ -146,7 +152,8 @@ def _answer(certain: object, lottery: object) -> Answer:
         raise UsageError(f"of two certain costs the smaller one comes first, found {least:g} and {most:g}")
     if law.least == law.most:
         raise InputError(f"the lottery costs {law.least:g} in any case; it says nothing about an attitude to risk")
-    return Answer((least, most), law, slope_of(least, law), slope_of(most, law))
+    low = -math.inf if least == -math.inf else slope_of(least, law)
+    return Answer((least, most), law, low, math.inf if most == math.inf else slope_of(most, law))
 
 
 def slope_of(certain: float, law: CostLaw) -> float:
@@ -191,4 +198,8 @@ def slope_of(certain: float, law: CostLaw) -> float:
 
 
 def _interval_text(low: float, high: float) -> str:
+    if math.isinf(high) and math.isfinite(low):
+        return f"at least {low:.6g}"
+    if math.isinf(low) and math.isfinite(high):
+        return f"at most {high:.6g}"
     return f"{low:.6g}" if low == high else f"{low:.6g} to {high:.6g}"

@@ -8,6 +8,11 @@ optimal the best known plan may be (`statehtn.sweeps.segments`). The segment whe
   cross, until the break between them is as narrow as was asked for, or a third plan is found there.
 - If one plan is best at both ends, and lines that touch at one point could prove it good enough in between, two runs
   try that. Otherwise, and where they fail, it is split at half of what the plan gains on it.
+
+In the end all plans are enumerated that may be best somewhere, where these are few. A plan with a certainty equivalent
+above `V(b)` at a slope `a` is not best anywhere between `a` and `b`: its certainty equivalent rises with the slope, and
+V is nowhere above `V(b)` there. So the plans up to `V(b)`, a top-k search at `a`, are enough; where there are no more
+than that, nothing is left to prove, and a break between two of them is where their curves cross.
 """
 
 from __future__ import annotations
@@ -36,6 +41,10 @@ SHARE = 0.9  # of the loss that is allowed, which lines may lose on the best pla
 LEAST_PART = 2.0**-10  # of a segment, that it is split off
 FINEST = 1e-9
 """Of alpha: the width of a segment that is not split any more, however much is left to prove."""
+MOST_PLANS = 64
+FEWER_PLANS = 12
+"""So many plans are enumerated for the whole interval, and for a part of it; beyond that the gap stays as it is."""
+PIECES = 8  # of a segment on which all plans are known, in which their curves are compared
 CENTRE = 1e-3  # next to neutral, break points are as precise as at this distance
 
 
@@ -89,6 +98,7 @@ class AlphaSweep:
                 heapq.heappop(self.todo)
                 for part in parts:
                     self.push(part)
+            self.complete(self.segments)
         except ENDINGS as ending:  # between two runs
             self.runs.stopped = status_of(ending)
             if not self.known:
@@ -149,6 +159,24 @@ class AlphaSweep:
             low = point
         yield Segment(low, segment.high)
 
+    def complete(self, segments: list[Segment], most: int = MOST_PLANS) -> None:
+        """Enumerate the plans that may be best on adjacent segments, or on one half of them after the other."""
+        if not segments or self.runs.stopped is not None:
+            return
+        low, high = segments[0].low.slope, segments[-1].high.slope
+        top = self.runs.top(prices_at(low), most, "sequence" if self.runs.order_matters else "multiset")
+        for plan in top.plans:
+            self.take(plan)
+        worst = self.best_at(high).curve.at(high)
+        is_complete = top.is_all or (top.lower_bound is not None and top.lower_bound > worst * (1 + TIE))
+        if self.runs.stopped is None and is_complete:
+            for segment in segments:
+                segment.is_complete = True
+        elif len(segments) > 1:
+            middle = len(segments) // 2
+            self.complete(segments[:middle], FEWER_PLANS)
+            self.complete(segments[middle:], FEWER_PLANS)
+
     def searched(self, slope: float, proven: float) -> Point:
         """Search for the plan of one agent; `proven` is known of V there already."""
         bound = None
@@ -161,10 +189,14 @@ class AlphaSweep:
         if result.found is None:
             self.status = result.status
             return result
-        curve = PlanCurve(step.law for step in result.found.steps)
-        if all(curve != known.curve for known in self.known):
-            self.known.append(Known(result.found, curve))
+        self.take(result.found)
         return result
+
+    def take(self, found: FoundPlan) -> None:
+        """Take up a plan, unless it is worth the same to everyone as another one."""
+        curve = PlanCurve(step.law for step in found.steps)
+        if all(curve != known.curve for known in self.known):
+            self.known.append(Known(found, curve))
 
     def best_at(self, slope: float) -> Known:
         """Return the best known plan at a slope; of equally good ones the first."""
@@ -172,7 +204,10 @@ class AlphaSweep:
 
     def best_on(self, segment: Segment) -> tuple[Known, Known]:
         """Return the best known plans at both ends of a segment; one plan, where it is as good as any at both."""
-        low, high = segment.low.slope, segment.high.slope
+        return self.best_between(segment.low.slope, segment.high.slope)
+
+    def best_between(self, low: float, high: float) -> tuple[Known, Known]:
+        """Return the best known plans at two slopes; one plan, where it is as good as any at both."""
         left, right = self.best_at(low), self.best_at(high)
         if right.curve.at(low) <= left.curve.at(low) * (1 + TIE):
             return right, right
@@ -202,20 +237,41 @@ class AlphaSweep:
             yield from self.parts(segment)
 
     def parts(self, segment: Segment) -> Iterator[Stretch]:
-        """Yield the parts of a segment on which one plan is the best one known: one, or two."""
+        """Yield the parts of a segment on which one plan is the best one known: one, or two; more if all are known."""
         low, high = segment.low.slope, segment.high.slope
+        if segment.is_complete:
+            start, end = self.place(low), self.place(high)
+            inner = (self.slope(start + (end - start) * part / PIECES) for part in range(1, PIECES))
+            for left_end, right_end in itertools.pairwise((low, *inner, high)):
+                yield from self.lowest(left_end, right_end)
+            return
         left, right = self.best_on(segment)
         if left is right:
             yield Stretch(low, high, left, segment.gap(left.curve))
             return
-        at = self.crossing(segment, left.curve, right.curve)
+        at = self.crossing(low, high, left.curve, right.curve)
         middle = Point(at, segment.low.bound)
         yield Stretch(low, at, left, Segment(segment.low, middle).gap(left.curve))
         yield Stretch(at, high, right, Segment(middle, segment.high).gap(right.curve))
 
+    def lowest(self, low: float, high: float) -> Iterator[Stretch]:
+        """Yield the parts between two slopes on which one plan is the best of all, which are known."""
+        left, right = self.best_between(low, high)
+        if left is right:
+            yield Stretch(low, high, left, 0.0)
+            return
+        at = self.crossing(low, high, left.curve, right.curve)
+        third = self.best_at(at)
+        if low < at < high and third.curve.at(at) < min(left.curve.at(at), right.curve.at(at)) * (1 - TIE):
+            yield from self.lowest(low, at)
+            yield from self.lowest(at, high)
+            return
+        yield Stretch(low, at, left, 0.0)
+        yield Stretch(at, high, right, 0.0)
+
     def beside_the_break(self, segment: Segment, left: PlanCurve, right: PlanCurve) -> list[float]:
         """Return slopes on both sides of the crossing of two plans, as close as a break point shall be known."""
-        at = self.place(self.crossing(segment, left, right))
+        at = self.place(self.crossing(segment.low.slope, segment.high.slope, left, right))
         apart = 0.4 * self.resolution * _spread(at)
         return [
             slope
@@ -223,14 +279,15 @@ class AlphaSweep:
             if segment.low.slope < (slope := self.slope(place)) < segment.high.slope
         ] or [self.slope((self.place(segment.low.slope) + self.place(segment.high.slope)) / 2)]
 
-    def crossing(self, segment: Segment, left: PlanCurve, right: PlanCurve) -> float:
+    def crossing(self, low: float, high: float, left: PlanCurve, right: PlanCurve) -> float:
         """Return the slope from which on the second plan is better, where the first one is better below."""
 
         def is_beyond(place: float) -> bool:
             slope = self.slope(place)
             return right.at(slope) < left.at(slope)
 
-        return self.slope(bisected(is_beyond, self.place(segment.low.slope), self.place(segment.high.slope)))
+        slope = self.slope(bisected(is_beyond, self.place(low), self.place(high)))
+        return 0.0 if abs(slope) * self.unit < TIE else slope  # plans of equal means cross there
 
     def halfway(self, segment: Segment, plan: PlanCurve) -> float:
         """Return the slope at which a plan has half of what it gains on a segment.

@@ -22,8 +22,12 @@ from statehtn.sweeps.alpha_sweep import AlphaSweep, Stretch
 from statehtn.sweeps.plan_curve import PlanCurve
 from statehtn.sweeps.runs import Runs
 
-RESOLUTION = 1e-3
+RESOLUTION = 1e-7
 """How narrow the interval of a break point shall be, as a part of the alpha."""
+ROUNDING = 1e-9
+"""Of alpha: where two curves cross, computed in floating point."""
+NOTHING = 1e-9  # an alpha that is shown as 0
+LEAST_ROUNDING = 1e-10  # times the inverse of what a plan costs
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -68,10 +72,15 @@ class MapPiece:
         return self.curve.at(_slope(alpha, "alpha"))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the piece as plain data; an infinite alpha is null."""
-        low, high = (end if math.isfinite(end) else None for end in (self.low, self.high))
-        plan = [str(priced.step) for priced in self.found.steps]
-        return {"low": low, "high": high, "plan": plan, "expected_cost": self.expected_cost, "gap": self.gap}
+        """Return the piece as plain data: a row of the map."""
+        return {
+            "alpha_from": self.low,
+            "alpha_to": self.high,
+            "plan": [str(priced.step) for priced in self.found.steps],
+            "length": self.found.length,
+            "expected_cost": self.expected_cost,
+            "gap": self.gap,
+        }
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,14 +91,17 @@ class BreakPoint:
     high: float
 
     def __str__(self) -> str:
-        return f"{self.low:.6g}" if self.low == self.high else f"[{self.low:.6g}, {self.high:.6g}]"
+        low, high = (f"{end:.6g}" if abs(end) > NOTHING else "0" for end in (self.low, self.high))
+        return low if low == high else f"[{low}, {high}]"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class AttitudeMap(Sequence[MapPiece]):
-    """The best plans of all exponential agents of an interval of alpha: a sequence of pieces from low to high.
+class AttitudeMap(Sequence[dict[str, Any]]):
+    """The best plans of all exponential agents of an interval of alpha: a sequence of rows from low to high.
 
-    Alpha is signed here: negative for seeking agents, 0 for the neutral one, positive for averse ones.
+    Alpha is signed here: negative for seeking agents, 0 for the neutral one, positive for averse ones. A row is a dict
+    with `alpha_from` and `alpha_to`, the `plan` as a list of its actions, its `length`, `expected_cost` and `gap`, so
+    that `pandas.DataFrame(...)` takes the map; `pieces` has the same with decompositions, prices and curves.
 
     Args:
         status: `OPTIMAL`: every plan is proven to be within `eps` of the best one, on its whole piece; `SOLVED`: the
@@ -118,11 +130,13 @@ class AttitudeMap(Sequence[MapPiece]):
         return len(self.pieces)
 
     @overload
-    def __getitem__(self, index: int) -> MapPiece: ...
+    def __getitem__(self, index: int) -> dict[str, Any]: ...
     @overload
-    def __getitem__(self, index: slice) -> tuple[MapPiece, ...]: ...
-    def __getitem__(self, index: int | slice) -> MapPiece | tuple[MapPiece, ...]:
-        return self.pieces[index]
+    def __getitem__(self, index: slice) -> list[dict[str, Any]]: ...
+    def __getitem__(self, index: int | slice) -> dict[str, Any] | list[dict[str, Any]]:
+        if isinstance(index, slice):
+            return [piece.to_dict() for piece in self.pieces[index]]
+        return self.pieces[index].to_dict()
 
     def __repr__(self) -> str:
         interval = f"from {self.low:g} to {self.high:g}"
@@ -158,14 +172,15 @@ class AttitudeMap(Sequence[MapPiece]):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the map as plain data; an infinite alpha is null."""
-        low, high = (end if math.isfinite(end) else None for end in (self.low, self.high))
         return {
             "status": self.status.value,
-            "low": low,
-            "high": high,
+            "alpha_from": finite(self.low),
+            "alpha_to": finite(self.high),
             "eps": self.eps,
             "gap": self.gap,
-            "pieces": [piece.to_dict() for piece in self.pieces],
+            "intervals": [
+                {**row, "alpha_from": finite(row["alpha_from"]), "alpha_to": finite(row["alpha_to"])} for row in self
+            ],
             "breaks": [[one.low, one.high] for one in self.breaks],
             "runs": self.runs,
             "stopped": None if self.stopped is None else self.stopped.value,
@@ -225,11 +240,18 @@ def _piece(stretches: Sequence[Stretch]) -> MapPiece:
 
 
 def _break(sweep: AlphaSweep, at: float) -> BreakPoint:
-    """Return the slopes that were searched next to a break."""
-    return BreakPoint(
-        max(segment.low.slope for segment in sweep.segments if segment.low.slope <= at),
-        min(segment.high.slope for segment in sweep.segments if segment.high.slope >= at),
-    )
+    """Return slopes next to a break: those that were searched; where all plans are known, the crossing to rounding."""
+    below = [segment for segment in sweep.segments if segment.low.slope <= at]
+    above = [segment for segment in sweep.segments if segment.high.slope >= at]
+    if below[-1].is_complete and above[0].is_complete:
+        apart = max(abs(at) * ROUNDING, LEAST_ROUNDING / sweep.unit)
+        return BreakPoint(at - apart, at + apart)
+    return BreakPoint(below[-1].low.slope, above[0].high.slope)
+
+
+def finite(alpha: float) -> float | None:
+    """Return an alpha as JSON can say it: an infinite one is null."""
+    return alpha if math.isfinite(alpha) else None
 
 
 def _slope(value: object, what: str) -> float:

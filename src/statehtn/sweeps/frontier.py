@@ -19,8 +19,11 @@ from statehtn.sweeps.runs import Runs
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Frontier(Sequence[FrontierPoint]):
+class Frontier(Sequence[dict[str, Any]]):
     """Plans of which no other one has a lower mean and a lower risk: a sequence from the least mean to the least risk.
+
+    It is a sequence of rows: dicts with `mean`, `risk` and the `plan` as a list of its actions, so that
+    `pandas.DataFrame(...)` takes it; `points` has the same with decompositions and prices.
 
     Args:
         status: `OPTIMAL`: it is proven that no point of the frontier is missing; `SOLVED`: the gaps say what is not
@@ -47,11 +50,11 @@ class Frontier(Sequence[FrontierPoint]):
         return len(self.points)
 
     @overload
-    def __getitem__(self, index: int) -> FrontierPoint: ...
+    def __getitem__(self, index: int) -> dict[str, Any]: ...
     @overload
-    def __getitem__(self, index: slice) -> tuple[FrontierPoint, ...]: ...
-    def __getitem__(self, index: int | slice) -> FrontierPoint | tuple[FrontierPoint, ...]:
-        return self.points[index]
+    def __getitem__(self, index: slice) -> list[dict[str, Any]]: ...
+    def __getitem__(self, index: int | slice) -> dict[str, Any] | list[dict[str, Any]]:
+        return [_row(one) for one in self.points[index]] if isinstance(index, slice) else _row(self.points[index])
 
     def __repr__(self) -> str:
         return f"<frontier of mean and {self.risk}: {self.status}, {counted(len(self), 'plan')}>"
@@ -68,19 +71,19 @@ class Frontier(Sequence[FrontierPoint]):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the frontier as plain data; an infinite gap, where nothing is known, is null."""
-        points = [
-            {"mean": one.mean, "risk": one.risk, "plan": [str(priced.step) for priced in one.found.steps]}
-            for one in self.points
-        ]
         return {
             "status": self.status.value,
             "risk": self.risk,
-            "points": points,
+            "points": list(self),
             "gaps": [gap if math.isfinite(gap) else None for gap in self.gaps],
             "runs": self.runs,
             "stopped": None if self.stopped is None else self.stopped.value,
             "statistics": self.statistics.to_dict(),
         }
+
+
+def _row(point: FrontierPoint) -> dict[str, Any]:
+    return {"mean": point.mean, "risk": point.risk, "plan": [str(priced.step) for priced in point.found.steps]}
 
 
 def find_frontier(

@@ -11,12 +11,13 @@ from statehtn.core.progress import Progress
 from statehtn.core.search import last_of
 from statehtn.effort import SearchEffort, Statistics
 from statehtn.limits import Limits
+from statehtn.model.cost.ground_cost import is_unconditional
 from statehtn.model.status import Status
 from statehtn.pipeline import solutions, solve_top
 from statehtn.result import Result
 from statehtn.risk import AdditiveObjective, Keep, Objective
 from statehtn.session import ProgressCallback, Session
-from statehtn.settings import Settings, TopSettings
+from statehtn.settings import DistinctName, Settings, TopSettings
 from statehtn.top_result import TopPlans
 
 
@@ -53,6 +54,13 @@ class Runs:
         problem = self.session.problem
         return problem is not None and bool(problem.scenarios)
 
+    @property
+    def order_matters(self) -> bool:
+        """Whether the same actions may have other costs in another order; known after the first run."""
+        problem = self.session.problem
+        actions = () if problem is None else problem.domain.actions.values()
+        return not all(is_unconditional(block) for action in actions for block in action.costs)
+
     def run(self, objective: Objective, keep: tuple[Keep, ...] = ()) -> Result:
         """Search for the best plan by an objective, of those that keep budgets, and prove that it is."""
         takes = heuristics_for(self.settings.solver, "astar", objective, keep)
@@ -65,9 +73,9 @@ class Runs:
         settings = replace(self.settings, objective=objective)
         return self._results(settings, every_plan=settings.search == "anytime")
 
-    def top(self, objective: Objective, k: int) -> TopPlans:
+    def top(self, objective: Objective, k: int, distinct: DistinctName = "sequence") -> TopPlans:
         """Search for the k best plans by an objective."""
-        settings = TopSettings.of(k, objective, precision=self.settings.precision)
+        settings = TopSettings.of(k, objective, distinct, precision=self.settings.precision)
         result = solve_top(self.session, settings, self.limits)
         self.statistics = _together(self.statistics, result.statistics)
         self.stopped = result.stopped

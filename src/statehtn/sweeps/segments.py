@@ -42,11 +42,13 @@ class Segment:
         low: the lower one.
         high: the upper one.
         chord: what two further runs have proven of V at both ends, in the order of the slopes; None without them.
+        is_complete: every plan that may be best somewhere on it is known.
     """
 
     low: Point
     high: Point
     chord: tuple[float, float] | None = None
+    is_complete: bool = False
 
     @property
     def is_seeking(self) -> bool:

@@ -42,7 +42,7 @@ def report_page(outcomes: Sequence[Outcome], title: str) -> str:
     Raises:
         UsageError: a package that it needs is not installed.
     """
-    environment = _environment()
+    environment = environment_of_pages()
     cases = cases_of(outcomes)
     settings = sorted({case.settings for case in cases}, key=order)
     domains = _series(list(dict.fromkeys(case.domain for case in cases)))
@@ -70,7 +70,7 @@ def report_page(outcomes: Sequence[Outcome], title: str) -> str:
     return str(page)
 
 
-def _environment() -> Any:
+def environment_of_pages() -> Any:
     """Return the template engine, after a look for everything that the page needs.
 
     Raises:
