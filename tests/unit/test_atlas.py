@@ -11,8 +11,8 @@ import numpy
 import pytest
 
 import statehtn
-from statehtn.atlas.alpha_axis import AlphaAxis, words
 from statehtn.cli import main
+from statehtn.display.atlas.alpha_axis import AlphaAxis, words
 from statehtn.model import CostDistribution, CostLaw, Problem
 from statehtn.model.status import Status
 from tests.brute_force import all_plans

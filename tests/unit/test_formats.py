@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import shutil
 import subprocess
 from pathlib import Path
@@ -47,7 +48,7 @@ def test_a_plan_in_the_format_of_the_competition_is_valid(tmp_path: Path, capsys
 
 def test_json_has_two_names(capsys: pytest.CaptureFixture[str]) -> None:
     texts = [output(capsys, *form) for form in (["--json"], ["--format", "json"])]
-    assert [text[:30] for text in texts] == [texts[0][:30]] * 2 == ['{"status": "optimal", "stopped'] * 2
+    assert [json.loads(text)["status"] for text in texts] == ["optimal", "optimal"]
 
 
 @pytest.mark.parametrize("form", ["csv", "ipc"])

@@ -16,6 +16,7 @@ LAW = CostDistribution.of([(0.25, 1), (0.75, 3)])
 
 def test_prices_are_logarithms_of_mean_utilities() -> None:
     wanted = objective("success-utility alpha=0.5")
+    assert isinstance(wanted, SuccessUtility)
     assert wanted.value(LAW) == pytest.approx(-math.log(0.25 * math.exp(-0.5) + 0.75 * math.exp(-1.5)), rel=1e-12)
     assert wanted.value(CostDistribution.certain(4)) == pytest.approx(2, rel=1e-15)
     of_a_function = SuccessUtility(lambda cost: math.exp(-0.5 * cost))

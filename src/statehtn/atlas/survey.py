@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from statehtn.found_plan import FoundPlan, PricedStep
+from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_problem
 from statehtn.model.problem import Problem
@@ -24,6 +24,7 @@ LEVEL = 0.95
 SHARE_OF_MAP = 0.6
 SHARE_OF_FRONTIERS = 0.6
 """Of the time that is left: for the map, and then for the frontiers."""
+LEAST_SECONDS = 1e-3
 DEADLINES = 25
 WEALTHS = 13
 """So many deadlines, and so many amounts of wealth, are planned for."""
@@ -142,7 +143,7 @@ class Atlas:
         Raises:
             UsageError: a package that it needs is not installed (`pip install 'statehtn[report]'`).
         """
-        from statehtn.atlas.page import atlas_page
+        from statehtn.display.atlas.page import atlas_page
 
         return atlas_page(self)
 
@@ -178,24 +179,24 @@ def survey(
         UnsupportedError: as `statehtn.plan`; costs hang together.
     """
     planner = Planner(expect_problem(problem))
-    clock = _Clock(time_limit)
+    limits = Limits.starting_now(time_limit, memory_limit)
     how: dict[str, Any] = {"memory_limit": memory_limit, "progress": progress}
-    found = planner.attitude_map(low, high, time_limit=clock.share(SHARE_OF_MAP), **how)
+    found = planner.attitude_map(low, high, time_limit=_seconds(limits, SHARE_OF_MAP), **how)
     atlas = Atlas(problem, found)
     if not found.pieces or found.stopped is Status.INTERRUPTED:
         return atlas
     atlas.of_piece = [atlas.number(piece.found) for piece in found.pieces]
-    _add_frontiers(atlas, planner, clock, how)
-    _add_choices(atlas, planner, clock, how)
+    _add_frontiers(atlas, planner, limits, how)
+    _add_choices(atlas, planner, limits, how)
     return atlas
 
 
-def _add_frontiers(atlas: Atlas, planner: Planner, clock: _Clock, how: dict[str, Any]) -> None:
+def _add_frontiers(atlas: Atlas, planner: Planner, limits: Limits, how: dict[str, Any]) -> None:
     neutral = next(plan for piece, plan in zip(atlas.map.pieces, atlas.of_piece, strict=True) if piece.high >= 0)
     budget = _rounded(atlas.plans[neutral].total.quantile(0.75))
     risks = [f"cvar {LEVEL:g}", f"deadline {budget:g}", "deviation"]
     for rank, risk in enumerate(risks):
-        seconds = clock.share(SHARE_OF_FRONTIERS / (len(risks) - rank))
+        seconds = _seconds(limits, SHARE_OF_FRONTIERS / (len(risks) - rank))
         frontier = planner.frontier(risk, time_limit=seconds, **how)
         if frontier.stopped is Status.INTERRUPTED:
             return
@@ -205,37 +206,36 @@ def _add_frontiers(atlas: Atlas, planner: Planner, clock: _Clock, how: dict[str,
                 atlas.number(point.found)
 
 
-def _add_choices(atlas: Atlas, planner: Planner, clock: _Clock, how: dict[str, Any]) -> None:
+def _add_choices(atlas: Atlas, planner: Planner, limits: Limits, how: dict[str, Any]) -> None:
     totals = [plan.total for plan in atlas.plans]
     least, most = min(total.least for total in totals), max(total.quantile(0.99) for total in totals)
     mean = min(total.mean for total in totals)
     if least < most:
         deadlines = _spread(least, most, DEADLINES)
-        _choose(atlas, planner, clock, how, deadlines, lambda at: f"deadline {at:g}", atlas.deadlines)
+        _choose(atlas, planner, limits.for_a_part(0.5), how, deadlines, lambda at: f"deadline {at:g}", atlas.deadlines)
     if mean > 0:
         atlas.one_switch = _rounded(CAREFUL / mean), _rounded(mean)
         alpha, tradeoff = atlas.one_switch
         wealths = _spread(0, 3 * mean, WEALTHS)
         text = f"one-switch alpha={alpha:g} tradeoff={tradeoff:g}"
-        _choose(atlas, planner, clock, how, wealths, lambda at: f"{text} wealth={at:g}", atlas.wealths)
+        _choose(atlas, planner, limits.for_a_part(0.5), how, wealths, lambda at: f"{text} wealth={at:g}", atlas.wealths)
 
 
 def _choose(
     atlas: Atlas,
     planner: Planner,
-    clock: _Clock,
+    limits: Limits,
     how: dict[str, Any],
     places: Sequence[float],
     objective: Callable[[float], str],
     choices: list[Choice],
 ) -> None:
-    """Plan for each of the places, each with an equal share of half of the time that is left."""
-    until = clock.share(0.5)
-    own = _Clock(until)
+    """Plan for each of the places, each with an equal share of the time that is left."""
     for rank, at in enumerate(places):
-        if own.is_over:
+        seconds = _seconds(limits, 1 / (len(places) - rank))
+        if seconds == LEAST_SECONDS:
             return
-        result = planner.plan(objective=objective(at), time_limit=own.share(1 / (len(places) - rank)), **how)
+        result = planner.plan(objective=objective(at), time_limit=seconds, **how)
         choices.append(_choice(atlas, at, result))
         if result.stopped is Status.INTERRUPTED:
             return
@@ -246,20 +246,10 @@ def _choice(atlas: Atlas, at: float, result: Result) -> Choice:
     return Choice(at, plan, result.value, result.gap)
 
 
-class _Clock:
-    """How much time is left, and parts of it."""
-
-    def __init__(self, seconds: float | None) -> None:
-        self.end = None if seconds is None else time.monotonic() + seconds
-
-    @property
-    def is_over(self) -> bool:
-        """Whether nothing is left."""
-        return self.end is not None and time.monotonic() >= self.end
-
-    def share(self, part: float) -> float | None:
-        """Return a part of what is left, in seconds; None without a limit."""
-        return None if self.end is None else max(part * (self.end - time.monotonic()), 1e-3)
+def _seconds(limits: Limits, share: float = 1.0) -> float | None:
+    """Return a part of the time that is left; None without a limit. Some is always left, to say that it is over."""
+    left, _, _ = limits.left()
+    return None if left is None else max(share * left, LEAST_SECONDS)
 
 
 def _spread(low: float, high: float, count: int) -> list[float]:

@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Sequence
 from typing import Any
 
-from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
 from statehtn.cli.completion_command import add_completion
+from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
 from statehtn.cli.formats import FORMATS
 from statehtn.cli.model_arguments import add_check, add_why
 from statehtn.cli.parser import Parser

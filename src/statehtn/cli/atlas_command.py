@@ -28,7 +28,9 @@ def run_atlas(options: argparse.Namespace) -> ExitCode:
         raise UsageError("write the page with --output FILE.html, or print its data with --json")
     output = None
     if options.output is not None:
-        from statehtn.atlas.page import check_packages  # before hours are spent on a page that cannot be written
+        from statehtn.display.atlas.page import (
+            check_packages,  # before hours are spent on a page that cannot be written
+        )
 
         check_packages()
         output = OutputFile(options.output, (options.domain, options.problem, options.costs))

@@ -33,8 +33,8 @@ def add_completion(commands: argparse._SubParsersAction[Parser]) -> None:
     parser.add_argument("shell", choices=("bash", "zsh", "tcsh"))
 
 
-def run_completion(options: argparse.Namespace) -> ExitCode:
-    """Run the command and return its exit code.
+def run_completion(options: argparse.Namespace, parser: Parser) -> ExitCode:
+    """Print the script for the command lines of a parser, and return the exit code.
 
     Raises:
         UsageError: a package is missing.
@@ -43,9 +43,6 @@ def run_completion(options: argparse.Namespace) -> ExitCode:
         import shtab
     except ImportError:
         raise UsageError("this needs the package 'shtab': pip install 'statehtn[completion]'") from None
-    from statehtn.cli.arguments import make_parser
-
-    parser = make_parser()
     (commands,) = (action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
     commands.metavar = None  # shtab takes it for one command
     for command in commands.choices.values():

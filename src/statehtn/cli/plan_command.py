@@ -64,7 +64,12 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         pass
     keeper.finish(result, session.problem)
     _print(result, session.problem, options, beside=output is not None and output.is_stdout)
-    if result.status is Status.UNSOLVABLE and session.problem is not None and options.format == "table" and not options.quiet:
+    if (
+        result.status is Status.UNSOLVABLE
+        and session.problem is not None
+        and options.format == "table"
+        and not options.quiet
+    ):
         _say_why(result, session.problem, limits)
     if keeper.failure is not None:
         raise keeper.failure

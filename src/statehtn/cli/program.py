@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 
-from statehtn.cli.arguments import parse_arguments
+from statehtn.cli.arguments import make_parser, parse_arguments
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.plan_command import run_plan
 from statehtn.cli.streams import OutputError, reopen_closed_streams, say
@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace) -> ExitCode:
         case "completion":
             from statehtn.cli.completion_command import run_completion
 
-            return run_completion(options)
+            return run_completion(options, make_parser())
         case "graph":
             from statehtn.cli.graph_command import run_graph  # what it needs would slow down the others
 

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 
-from statehtn.atlas.alpha_axis import AlphaAxis
 from statehtn.atlas.survey import Atlas, AtlasPlan
+from statehtn.display.atlas.alpha_axis import AlphaAxis
 from statehtn.experiments.report.plots import SIZE, STEPS
 from statehtn.experiments.report.svg import PLACEHOLDERS, STYLE, inline_svg
 from statehtn.sweeps.frontier import Frontier

@@ -33,7 +33,7 @@ class AlphaAxis:
         """Return an axis on which the break points of a map are spread."""
         alphas = [abs(one.low + one.high) / 2 for one in found.breaks]
         mean = found.pieces[0].expected_cost
-        far = [alpha for alpha in alphas if alpha * mean > 1e-6]
+        far = [alpha for alpha in alphas if math.isfinite(alpha) and alpha * mean > 1e-6]
         return cls(1 / statistics.median(far) if far else max(mean, 1e-9) / 5, found.low, found.high)
 
     def place(self, alpha: float) -> float:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from statehtn.atlas.alpha_axis import AlphaAxis, words
 from statehtn.atlas.survey import LEVEL, Atlas, AtlasPlan, Choice
+from statehtn.display.atlas.alpha_axis import AlphaAxis, words
 from statehtn.experiments.report import page as report
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.status import Status
@@ -72,7 +72,7 @@ def _asset(name: str) -> str:
 
 
 def _content(atlas: Atlas) -> dict[str, Any]:
-    from statehtn.atlas.pictures import frontier_picture, map_picture
+    from statehtn.display.atlas.pictures import frontier_picture, map_picture
 
     axis = AlphaAxis.of(atlas.map)
     svg, frame = map_picture(atlas, axis)
@@ -161,7 +161,7 @@ def _open(atlas: Atlas) -> list[str]:
 
 
 def _card(atlas: Atlas, number: int, plan: AtlasPlan) -> Card:
-    from statehtn.atlas.pictures import colour, law_picture
+    from statehtn.display.atlas.pictures import colour, law_picture
     from statehtn.display.tree import tree_text
 
     rows = plan.found.plan.decomposition.rows
