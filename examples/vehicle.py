@@ -32,7 +32,7 @@ def vehicle() -> statehtn.Problem:
 
     start = build.action("start", precondition=~running(), effects=running(), cost=0.5)
     turn_on = build.action("turn-on-lights", precondition=running() & ~lights_on(), effects=lights_on(), cost=0.1)
-    drives = {"precondition": running() & at(frm) & road(frm, to)}
+    drives = running() & at(frm) & road(frm, to)
     moves = [~at(frm), at(to), visited(to), ~esp()]
     traffic = when(~slippery(frm, to), chance((1 - p_jam(frm, to), free(frm, to)), (p_jam(frm, to), jam(frm, to))))
     stable, unstable = slippery(frm, to) & esp(), slippery(frm, to) & ~esp()
@@ -41,8 +41,8 @@ def vehicle() -> statehtn.Problem:
     fast = [when(stable, chance((0.2, 1 * length), (0.8, 11 * length)))]
     fast += [when(unstable, chance((0.1, 0.5 * length), (0.9, 16 * length)))]
     slow = [when(stable, 9 * length), when(unstable, chance((0.2, 6 * length), (0.8, 11 * length)))]
-    accelerate = build.action("accelerate", [frm, to], **drives, effects=moves, cost=[traffic, *fast])
-    decelerate = build.action("decelerate", [frm, to], **drives, effects=moves, cost=[traffic, *slow])
+    accelerate = build.action("accelerate", [frm, to], precondition=drives, effects=moves, cost=[traffic, *fast])
+    decelerate = build.action("decelerate", [frm, to], precondition=drives, effects=moves, cost=[traffic, *slow])
     activate = build.action("activate-esp", precondition=running() & ~esp(), effects=esp(), cost=1)
     dodge = build.action("dodge", [at_], precondition=running() & at(at_) & incident(at_), cost=dodging(at_))
     waits = chance((1 - p_long(at_), short(at_)), (p_long(at_), long(at_)))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     __version__: str
     from statehtn.atlas.survey import Atlas, survey
     from statehtn.attitudes import AttitudeComparison
-    from statehtn.build import ProblemBuilder, chance, equal, exists, forall, when, with_cost
+    from statehtn.build import Outcome, ProblemBuilder, chance, equal, exists, forall, when, with_cost
     from statehtn.build.cost_file import read_costs
     from statehtn.build.cost_table import CostTable
     from statehtn.build.joint_samples import read_joint_samples
@@ -105,6 +105,7 @@ __all__ = [
     "NoPlan",
     "Objective",
     "OneSwitch",
+    "Outcome",
     "Overrun",
     "Piecewise",
     "Place",
@@ -166,7 +167,7 @@ __all__ = [
 _MODULES_FOR_LATER = {
     "atlas.survey": ("Atlas", "survey"),
     "attitudes": ("AttitudeComparison",),
-    "build": ("ProblemBuilder", "chance", "equal", "exists", "forall", "when", "with_cost"),
+    "build": ("Outcome", "ProblemBuilder", "chance", "equal", "exists", "forall", "when", "with_cost"),
     "build.cost_file": ("read_costs",),
     "build.cost_table": ("CostTable",),
     "build.joint_samples": ("read_joint_samples",),

@@ -17,7 +17,7 @@ from statehtn.core.search_run import SearchOutcome
 from statehtn.core.searches import TAKES
 from statehtn.core.top_plans import find_top_plans
 from statehtn.effort import Meter
-from statehtn.errors import UsageError
+from statehtn.errors import UnsupportedError, UsageError
 from statehtn.limits import Limits
 from statehtn.log import log
 from statehtn.model.cost.scenario_cost import as_if_independent
@@ -58,8 +58,13 @@ class Session:
         return self.problem
 
     def ground(self, limits: Limits, meter: Meter) -> Grounding:
-        """Return the ground problem, and note how large it is."""
+        """Return the ground problem, and note how large it is.
+
+        Raises:
+            UnsupportedError: an action has several outcomes.
+        """
         problem = self.read(limits, meter)
+        _refuse_outcomes(problem)
         with meter.timed("ground"):
             if self._grounding is None:
                 self._grounding = ground(problem, limits)
@@ -177,3 +182,13 @@ def _by_the_mean(outcome: SearchOutcome) -> SearchOutcome:
     """Return what a search by the mean says of another objective: there is a plan."""
     status = Status.SOLVED if outcome.status is Status.OPTIMAL else outcome.status
     return replace(outcome, status=status, lower_bound=None)
+
+
+def _refuse_outcomes(problem: Problem) -> None:
+    """Refuse actions with several outcomes: what to do next depends on what has come, which no plan can tell."""
+    for action in problem.domain.actions.values():
+        for block in action.outcomes:
+            raise UnsupportedError(
+                f"action '{action.name}' changes facts by chance, which no plan, a sequence of actions, can answer",
+                block.place,
+            )

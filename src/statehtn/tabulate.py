@@ -29,22 +29,53 @@ def tabulate_costs(problem: Problem) -> Problem:
             outcomes.
     """
     expect_problem(problem)
-    if not any(block.external for action in problem.domain.actions.values() for block in action.costs):
+    if not any(block.external for action in problem.domain.actions.values() for block in action.all_costs):
         return problem
-    reached = _reached(ground(problem))
-    functions = dict(problem.domain.functions)
-    values = dict(problem.function_values)
-    actions = {}
-    for name, action in problem.domain.actions.items():
+    tables = _Tables(problem, _reached(ground(problem)))
+    actions = {name: tables.action(action) for name, action in problem.domain.actions.items()}
+    domain = replace(problem.domain, functions=tables.functions, actions=actions)
+    return replace(problem, domain=domain, function_values=tables.values)
+
+
+class _Tables:
+    """Functions in the place of callables, and their values.
+
+    Args:
+        problem: the problem with callables.
+        reached: for every action the arguments of its instances.
+    """
+
+    def __init__(self, problem: Problem, reached: dict[str, dict[Arguments, None]]) -> None:
+        self.functions = dict(problem.domain.functions)
+        self.values = dict(problem.function_values)
+        self._problem = problem
+        self._reached = reached
+
+    def action(self, action: Action) -> Action:
+        """Return an action whose costs, and those of its outcomes, read functions."""
+        index = 0
+
+        def tabulated(blocks: tuple[CostBlock, ...]) -> tuple[CostBlock, ...]:
+            nonlocal index
+            found = []
+            for block in blocks:
+                found.append(self._block(block, action, index))
+                index += 1
+            return tuple(found)
+
+        costs = tabulated(action.costs)
         blocks = []
-        for index, block in enumerate(action.costs):
-            if block.external is not None:
-                laws = {arguments: _law(block, action, arguments, problem) for arguments in reached.get(name, ())}
-                block = replace(block, external=None, branches=_tabulated(action, index, laws, functions, values))
-            blocks.append(block)
-        actions[name] = replace(action, costs=tuple(blocks))
-    domain = replace(problem.domain, functions=functions, actions=actions)
-    return replace(problem, domain=domain, function_values=values)
+        for block in action.outcomes:
+            outcomes = tuple(replace(outcome, costs=tabulated(outcome.costs)) for outcome in block.outcomes)
+            blocks.append(replace(block, outcomes=outcomes))
+        return replace(action, costs=costs, outcomes=tuple(blocks))
+
+    def _block(self, block: CostBlock, action: Action, index: int) -> CostBlock:
+        if block.external is None:
+            return block
+        instances = self._reached.get(action.name, ())
+        laws = {arguments: _law(block, action, arguments, self._problem) for arguments in instances}
+        return replace(block, external=None, branches=_tabulated(action, index, laws, self.functions, self.values))
 
 
 def _reached(grounding: Grounding) -> dict[str, dict[Arguments, None]]:

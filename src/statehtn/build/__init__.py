@@ -7,6 +7,7 @@ from statehtn.build.builder import ProblemBuilder
 from statehtn.build.declared import NumericFunction, Predicate, Task, Type
 from statehtn.build.external import ExternalFunction
 from statehtn.build.networks import Occurrence
+from statehtn.build.outcomes import Outcome, OutcomePart
 from statehtn.build.parts import Chance, CostPart, EffectPart, Quantified, When, chance, forall, when
 from statehtn.build.terms import Object, Term, equal, exists
 from statehtn.build.with_cost import with_cost
@@ -19,6 +20,8 @@ __all__ = [
     "NumericFunction",
     "Object",
     "Occurrence",
+    "Outcome",
+    "OutcomePart",
     "Predicate",
     "ProblemBuilder",
     "Quantified",

@@ -21,6 +21,7 @@ from statehtn.model import (
     Fact,
     Formula,
     Not,
+    OutcomeBlock,
     Problem,
     Signature,
 )
@@ -136,7 +137,9 @@ class CostTable:
         actions = {}
         for name, action in domain.actions.items():
             old = action.costs if unit is None else unit
-            actions[name] = replace(action, costs=_blocks(action, by_action.get(name, []), old, facts))
+            entries = by_action.get(name, [])
+            costs = _blocks(action, entries, old, facts)
+            actions[name] = replace(action, costs=costs, outcomes=_outcomes(action, entries))
         return replace(problem, domain=replace(domain, actions=actions)) if by_action else problem
 
 
@@ -208,6 +211,24 @@ def _blocks(
     if any(entry.condition(action) == TRUE for entry in entries):
         return tuple(found)
     return (*found, *(replace(block, condition=_joined(block.condition, action, entries)) for block in old))
+
+
+def _outcomes(action: Action, entries: list[CostEntry]) -> tuple[OutcomeBlock, ...]:
+    """Return an action's outcomes, with their old costs for instances without an entry: it says the whole cost."""
+    is_all = any(entry.condition(action) == TRUE for entry in entries)
+
+    def costs(old: tuple[CostBlock, ...]) -> tuple[CostBlock, ...]:
+        return tuple(
+            replace(cost, condition=_joined(cost.condition, action, entries)) for cost in (() if is_all else old)
+        )
+
+    return (
+        tuple(
+            replace(block, outcomes=tuple(replace(outcome, costs=costs(outcome.costs)) for outcome in block.outcomes))
+            for block in (action.outcomes if entries else ())
+        )
+        or action.outcomes
+    )
 
 
 def _joined(condition: Formula, action: Action, others: list[CostEntry]) -> Formula:

@@ -11,6 +11,7 @@ from statehtn.build.declarations import Declarations
 from statehtn.build.declared import NumericFunction, Predicate, Task, Type
 from statehtn.build.names import Named, new_name, not_declared
 from statehtn.build.networks import Occurrence, Ordering, network_of
+from statehtn.build.outcomes import OutcomePart, outcomes_of
 from statehtn.build.parts import CostPart, EffectPart, When, costs_of, effects_of
 from statehtn.build.terms import Object, checked_formula, checked_variables
 from statehtn.errors import UsageError
@@ -88,6 +89,7 @@ class DomainBuilder:
         precondition: Combinable = TRUE,
         effects: EffectPart | Iterable[EffectPart] = (),
         cost: CostPart | Iterable[CostPart] = (),
+        outcomes: OutcomePart | Iterable[OutcomePart] = (),
     ) -> Task:
         """Declare an action, a primitive task.
 
@@ -99,6 +101,9 @@ class DomainBuilder:
             cost: numbers, distributions, expressions, `chance(...)`, Python callables, `when(...)` and `forall(...)` of
                 them: at least 0, in the domain's unit, independent and added up. Without any cost in all of the domain
                 every action costs 1; otherwise an action without one is free.
+            outcomes: what it does by chance besides: `Outcome(probability, effects, cost)` for each thing that may
+                come, of which one does. Lists of outcomes, `when(...)` and `forall(...)` of them are blocks of their
+                own, independent of each other.
         """
         declared = self._declared
         new_name(name, "action", ("task", declared.tasks), ("action", declared.actions))
@@ -112,6 +117,7 @@ class DomainBuilder:
             condition,
             effects_of(effects, scope, declared),
             costs_of(cost, name, signature.parameters, scope, declared),
+            outcomes_of(outcomes, name, signature.parameters, scope, declared),
         )
         declared.actions[name] = action
         return Task(signature, True, declared)
@@ -166,7 +172,8 @@ class DomainBuilder:
             action: a declared action or its name, in any case.
             costs: as in `action`, at least one; 0 for none.
             when: a formula over the action's parameters, or its HDDL text, such as `(icy ?to)`: the costs are due where
-                it holds. They replace what was due under exactly this condition; other parts stay.
+                it holds. They replace what was due under exactly this condition; other parts stay, and so do costs of
+                outcomes, which are replaced where there is no `when`.
         """
         declared = self._declared
         given = action.name if isinstance(action, Task) else expect(action, str, "the action must be a name")
@@ -178,7 +185,8 @@ class DomainBuilder:
         old = declared.actions[name]
         scope = declared.scope(old.parameters)  # a problem's costs may name its objects
         if when is None:
-            declared.actions[name] = replace(old, costs=costs_of(costs, name, old.parameters, scope, declared))
+            new = costs_of(costs, name, old.parameters, scope, declared)
+            declared.actions[name] = replace(without_costs(old), costs=new)
             return
         condition = read_condition(when, scope, declared) if isinstance(when, str) else checked_formula(when, "'when'")
         new = costs_of(When(condition, costs), name, old.parameters, scope, declared)
@@ -230,6 +238,15 @@ class DomainBuilder:
             dict(declared.actions),
             dict(declared.methods),
         )
+
+
+def without_costs(action: Action) -> Action:
+    """Return an action without any cost, in its outcomes, too."""
+    blocks = tuple(
+        replace(block, outcomes=tuple(replace(outcome, costs=()) for outcome in block.outcomes))
+        for block in action.outcomes
+    )
+    return replace(action, costs=(), outcomes=blocks)
 
 
 def declared_in(domain: Domain) -> Declarations:

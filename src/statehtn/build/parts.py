@@ -123,7 +123,7 @@ def chance(*branches: tuple[Computable | Amount, Computable | Amount]) -> Chance
         if not isinstance(branch, tuple | list) or len(branch) != 2:
             raise UsageError(f"expected a pair (probability, cost), found {branch!r}")
         probability, cost = branch
-        found.append((_expression(probability, "a probability"), _expression(cost, "a cost")))
+        found.append((expression_of(probability, "a probability"), expression_of(cost, "a cost")))
     values = [constant_value(probability) for probability, _ in found]
     total = sum((value for value in values if value is not None), Fraction(0))
     off = total - 1
@@ -139,7 +139,7 @@ def effects_of(parts: object, scope: Scope, declared: Declarations) -> tuple[Eff
         UsageError: a part is no effect, or a name in it is wrong.
     """
     found = []
-    for part, condition, parameters, inner in _parts(_listed(parts), TRUE, (), scope, declared):
+    for part, condition, parameters, inner in _parts(listed(parts), TRUE, (), scope, declared):
         match part:
             case Atom():
                 effect = Effect(part, True, condition, parameters)
@@ -161,7 +161,7 @@ def costs_of(
         UsageError: a part is no cost, or a name in it is wrong.
     """
     found = []
-    for part, condition, bound, inner in _parts(_listed(parts), TRUE, (), scope, declared):
+    for part, condition, bound, inner in _parts(listed(parts), TRUE, (), scope, declared):
         if _is_external(part):
             found.append(CostBlock((), condition, bound, external(action, parameters, part)))
             continue
@@ -190,14 +190,19 @@ def _parts(
                 both = inner if condition == TRUE else And((condition, inner))
                 yield from _parts(nested, both, parameters, scope, declared)
             case Quantified(bound, nested):
-                yield from _parts(nested, condition, (*parameters, *bound), _joined(scope, bound, declared), declared)
+                yield from _parts(nested, condition, (*parameters, *bound), joined(scope, bound, declared), declared)
             case Forall(bound, body):
-                yield from _parts((body,), condition, (*parameters, *bound), _joined(scope, bound, declared), declared)
+                yield from _parts((body,), condition, (*parameters, *bound), joined(scope, bound, declared), declared)
             case _:
                 yield part, condition, parameters, scope
 
 
-def _joined(scope: Scope, bound: tuple[Parameter, ...], declared: Declarations) -> Scope:
+def joined(scope: Scope, bound: tuple[Parameter, ...], declared: Declarations) -> Scope:
+    """Return a scope with the variables of a `forall`.
+
+    Raises:
+        UsageError: one of them is a variable around it, too.
+    """
     around = {name.lower() for name in scope.variables}
     for parameter in bound:
         if parameter.name.lower() in around:
@@ -205,7 +210,8 @@ def _joined(scope: Scope, bound: tuple[Parameter, ...], declared: Declarations) 
     return declared.extended(scope, bound)
 
 
-def _listed(parts: object) -> Sequence[object]:
+def listed(parts: object) -> Sequence[object]:
+    """Return parts as a list, in which a part that is given alone is the only one."""
     if isinstance(parts, Iterable) and not isinstance(parts, str | Mapping) and not callable(parts):
         return list(parts)
     return [parts]
@@ -219,13 +225,13 @@ def _branches(part: object) -> tuple[tuple[Expression, Expression], ...]:
     if isinstance(part, Chance):
         return part.branches
     if isinstance(part, Computable | Real | Decimal) and not isinstance(part, bool):
-        return ((Number(Fraction(1)), _expression(part, "a cost")),)
+        return ((Number(Fraction(1)), expression_of(part, "a cost")),)
     raise UsageError(
         f"a cost is a number, a CostDistribution, an expression of functions, chance(...) or a callable, found {part!r}"
     )
 
 
-def _expression(value: object, what: str) -> Expression:
+def expression_of(value: object, what: str) -> Expression:
     """Return a number or an expression as an expression.
 
     Raises:

@@ -6,6 +6,7 @@ import warnings
 
 import statehtn._relax as _relax
 from statehtn.core.encode import CostPart, Encoding
+from statehtn.core.outcomes import Combination, Outcomes
 from statehtn.limits import Limits
 from statehtn.model import (
     CostBlock,
@@ -22,12 +23,13 @@ from statehtn.model.cost.ground_cost import (
     sum_in_scenario,
     sum_of_blocks,
 )
+from statehtn.model.cost.mixture import mixture_of
 from statehtn.model.cost.scenario_cost import by_scenario
 from statehtn.model.cost.unknown import MissingNumber, UnknownCost
 from statehtn.model.problem import Action, Fact
 
 Blocks = list[tuple[int, tuple[str, ...]]]
-"""Blocks of a cost: (index in `Action.costs`, objects of its variables)."""
+"""Blocks of a cost: (index in `Action.all_costs`, objects of its variables)."""
 Parts = list[tuple[CostPart, tuple[str, ...]]]
 """Blocks of a cost, each with the scenarios in which it is due, and objects of its variables."""
 
@@ -35,9 +37,10 @@ Parts = list[tuple[CostPart, tuple[str, ...]]]
 class CostLaws:
     """The cost laws of ground actions; equal ones are mostly the same object."""
 
-    def __init__(self, encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> None:
+    def __init__(self, encoding: Encoding, handle: _relax.GroundProblem, outcomes: Outcomes, limits: Limits) -> None:
         self.encoding = encoding
         self.handle = handle
+        self.outcomes = outcomes
         self.limits = limits
         self.problem = encoding.problem
         self.values = encoding.problem.function_values
@@ -58,7 +61,7 @@ class CostLaws:
             if action is None:
                 laws.append(free)
                 continue
-            if any(block.external for block in action.costs):
+            if any(block.external for block in action.all_costs):
                 self.limits.check()  # a callable may take its time
             laws.append(self._base_law(number, schema, action))
             for part in range(*self.handle.cost_parts(number)):
@@ -76,8 +79,15 @@ class CostLaws:
             self.always[schema] = [
                 (CostPart(index, None), ()) for index, block in enumerate(action.costs) if is_unconditional(block)
             ]
+        always = self.always[schema]
         parts = self._read_parts(schema, self.handle.action_cost_blocks(number))
-        return self._law(number, schema, action, self.always[schema] + parts)
+        combinations = self.outcomes.combinations(number) if action.outcomes else ()
+        if len(combinations) < 2:
+            return self._law(number, schema, action, always + parts)
+        chosen = [[pair for pair in parts if _is_due(*pair, combination)] for combination in combinations]
+        laws = [self._law(number, schema, action, always + due) for due in chosen]
+        weights = [float(self.outcomes.probability(number, combination)) for combination in combinations]
+        return mixture_of(weights, laws) if any(weights) else laws[0]
 
     def _law(self, number: int, schema: int, action: Action, parts: Parts) -> CostLaw:
         key = (schema, tuple(part for part, _ in parts))
@@ -89,7 +99,7 @@ class CostLaws:
                 law = sum_of_blocks(action, arguments, blocks, self.problem)
             except MissingNumber:
                 law = self._known_law(action, arguments, blocks)
-            if all(_is_the_same_for_all(action.costs[part.block]) for part, _ in parts):
+            if all(_is_the_same_for_all(action.all_costs[part.block]) for part, _ in parts):
                 self.shared[key] = law
         return law
 
@@ -115,7 +125,7 @@ class CostLaws:
         laws: list[CostLaw] = []
         for index, objects in blocks:
             try:
-                block_law(action.costs[index], action, arguments, objects, self.values, hidden)
+                block_law(action.all_costs[index], action, arguments, objects, self.values, hidden)
             except MissingNumber as error:
                 self.missing.setdefault(error.message, error)
                 laws = [UnknownCost(error=error)]
@@ -143,6 +153,14 @@ class CostLaws:
 
     def _objects(self, numbers: list[int]) -> tuple[str, ...]:
         return tuple(self.encoding.objects[number] for number in numbers)
+
+
+def _is_due(part: CostPart, objects: tuple[str, ...], combination: Combination) -> bool:
+    """Tell whether a part of a cost is due where these branches were chosen; its objects begin with the block's."""
+    return part.branch is None or any(
+        part.branch == (chosen.block, chosen.branch) and objects[: len(chosen.objects)] == chosen.objects
+        for chosen in combination
+    )
 
 
 def _is_the_same_for_all(block: CostBlock) -> bool:

@@ -14,6 +14,8 @@ from statehtn.model import (
     Action,
     And,
     Atom,
+    CostBlock,
+    Effect,
     Equals,
     Exists,
     Forall,
@@ -29,6 +31,8 @@ from statehtn.model.formula import Fact, predicates
 from statehtn.model.hidden import check_that_costs_alone_read, hidden_predicates
 
 Kind = _relax.FormulaKind
+Branch = tuple[int, int] | None
+"""The block of outcomes and the branch in it to which something belongs; None for what is certain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +43,9 @@ class CostPart:
     is encoded once for all scenarios in which it reads the same, with predicates that are static.
     """
 
-    block: int  # in `Action.costs`
+    block: int  # in `Action.all_costs`
     scenarios: frozenset[int] | None  # None: in all of them
+    branch: Branch = None
 
 
 @dataclass
@@ -142,27 +147,47 @@ class _Encoder:
     def add_action(self, action: Action) -> None:
         scope = _Scope(action.parameters)
         precondition = self.formula(action.precondition, scope)
-        effects = []
-        for effect in action.effects:
-            variables, condition, terms = self.quantified(
-                effect.parameters, effect.condition, effect.atom.arguments, scope
-            )
-            effects.append(
-                _relax.LiftedEffect(
-                    variables, condition, self.predicate_numbers[effect.atom.predicate], terms, effect.positive
-                )
-            )
-        costs = []
+        effects = [self.effect(effect, scope) for effect in action.effects]
+        costs: list[_relax.LiftedCostCondition] = []
         parts: list[CostPart] = []
-        for index, block in enumerate(action.costs):
-            if not is_unconditional(block):
-                for scenarios in self.told_apart(block.condition):
-                    variables, condition, _ = self.quantified(block.parameters, block.condition, (), scope)
-                    costs.append(_relax.LiftedCostCondition(len(parts), variables, condition))
-                    parts.append(CostPart(index, scenarios))
-        self.predicate_numbers = self.own_numbers
+        for index, cost in enumerate(action.costs):
+            if not is_unconditional(cost):
+                self.add_cost(cost, index, None, scope, costs, parts)
+        index = len(action.costs)
+        blocks = []
+        for number, block in enumerate(action.outcomes):
+            branches = block.branches
+            blocks.append((len(block.parameters), len(branches)))
+            for branch, outcome in enumerate(branches):
+                effects += [self.effect(effect, scope, (number, branch)) for effect in block.effects_of(outcome)]
+                for cost in block.costs_of(outcome):
+                    self.add_cost(cost, index, (number, branch), scope, costs, parts)
+                    index += 1
         self.result.cost_parts.append(parts)
-        self.handle.add_action(self.domains_of(action.parameters), scope.count, precondition, effects, costs, False)
+        domains = self.domains_of(action.parameters)
+        self.handle.add_action(domains, scope.count, precondition, effects, costs, False, blocks)
+
+    def effect(self, effect: Effect, scope: _Scope, branch: Branch = None) -> _relax.LiftedEffect:
+        """Encode an effect."""
+        variables, condition, terms = self.quantified(effect.parameters, effect.condition, effect.atom.arguments, scope)
+        predicate = self.predicate_numbers[effect.atom.predicate]
+        return _relax.LiftedEffect(variables, condition, predicate, terms, effect.positive, branch)
+
+    def add_cost(
+        self,
+        cost: CostBlock,
+        index: int,
+        branch: Branch,
+        scope: _Scope,
+        costs: list[_relax.LiftedCostCondition],
+        parts: list[CostPart],
+    ) -> None:
+        """Add a part of a cost, once for all scenarios between which its condition does not distinguish."""
+        for scenarios in self.told_apart(cost.condition):
+            variables, condition, _ = self.quantified(cost.parameters, cost.condition, (), scope)
+            costs.append(_relax.LiftedCostCondition(len(parts), variables, condition, branch))
+            parts.append(CostPart(index, scenarios, branch))
+        self.predicate_numbers = self.own_numbers
 
     def told_apart(self, condition: Formula) -> Iterator[frozenset[int] | None]:
         """Yield the scenarios between which a condition does not distinguish; meanwhile it reads those facts."""

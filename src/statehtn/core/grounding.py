@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from itertools import chain
 
 import statehtn._relax as _relax
 from statehtn.core.cost_laws import CostLaws
 from statehtn.core.encode import Encoding, encode
+from statehtn.core.outcomes import Outcomes
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import LimitReached, Limits, watched
 from statehtn.model import (
@@ -64,6 +66,8 @@ class Grounding:
         laws: what is always due of the cost of each ground action; equal ones are mostly the same object.
         part_laws: what else is due under a condition, by cost part. All parts of a cost are independent.
         switches: which refinements were on.
+        probabilities: by ground action, how likely it is that nature chooses it where it is one of several outcomes;
+            otherwise 1.
     """
 
     problem: Problem
@@ -72,6 +76,7 @@ class Grounding:
     laws: tuple[CostLaw, ...]
     part_laws: tuple[CostLaw, ...]
     switches: GroundingSwitches
+    probabilities: tuple[Fraction, ...]
 
     @property
     def fact_count(self) -> int:
@@ -85,7 +90,7 @@ class Grounding:
 
     @property
     def action_count(self) -> int:
-        """The number of ground actions of the domain, each counted once for every case of its precondition."""
+        """The number of ground actions of the domain, each counted once for every case and every outcome."""
         return sum(self.encoding.actions[schema] is not None for schema in self.handle.action_schema)
 
     @property
@@ -109,6 +114,7 @@ class Grounding:
     @cached_property
     def _model(self) -> GroundProblem:
         handle = self.handle
+        task_count = handle.action_count + handle.compound_count
         return GroundProblem(
             facts=tuple(
                 (self.encoding.predicates[predicate], *self.objects(handle.fact_arguments(fact)))
@@ -123,6 +129,7 @@ class Grounding:
             initial_state=frozenset(handle.initial_state),
             initial_task=handle.initial_task,
             is_plain=self.switches == PLAIN,
+            chance_tasks=frozenset(filter(handle.is_chance, range(handle.action_count, task_count))),
         )
 
     def task_name(self, schema: int) -> str:
@@ -159,6 +166,7 @@ class Grounding:
             self.laws[action],
             self.encoding.actions[schema] is None,
             tuple(map(self._cost_part, range(*handle.cost_parts(action)))),
+            self.probabilities[action],
         )
 
     def _cost_part(self, part: int) -> GroundCostPart:
@@ -175,7 +183,8 @@ class Grounding:
         handle = self.handle
         parts = range(*handle.method_parts(method))
         lifted = self.encoding.schemes[handle.part_schema(parts.start)].method if parts else None
-        name = lifted.name if lifted else "initial network" if parts else "case"
+        is_chance = not parts and handle.is_chance(handle.method_task(method))
+        name = lifted.name if lifted else "initial network" if parts else "outcome" if is_chance else "case"
         return GroundMethod(
             name,
             self.objects(handle.part_arguments(parts.start)) if parts else (),
@@ -191,15 +200,19 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
     Args:
         problem: the lifted problem.
         limits: they hold for grounding, too.
-        switches: `PLAIN` for graphs and the reference solver, which speak of the domain's own methods.
+        switches: `PLAIN` for graphs and the reference solver, which speak of the domain's own methods. Where actions
+            have several outcomes, methods are not split: an agent must not choose a part of a method after it has seen
+            an outcome.
 
     Raises:
         LimitReached: a limit was reached, or Ctrl-C.
         InputError: the cost of a reachable action is no distribution. What is not defined is taken as 0, with a
             `CostWarning` (see `statehtn.model.cost.unknown`).
+            A probability of outcomes is none, or an action has more than 64 outcomes with different facts.
         UnsupportedError: a precondition falls into too many cases.
     """
-    _refuse_outcomes(problem)
+    if problem.domain.has_outcomes:
+        switches = replace(switches, split_methods=False)
     with watched(limits):
         encoding = encode(problem, switches.split_methods)
     handle = _relax.ground(
@@ -215,21 +228,16 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         action, arguments, has_many_outcomes = handle
         name = " ".join((encoding.action_names[action], *(encoding.objects[number] for number in arguments)))
         if has_many_outcomes:
+            lifted = encoding.actions[action]
             raise InputError(
-                f"({name}) has more than 64 outcomes with different facts; can its effects be stated with fewer?"
+                f"({name}) has more than 64 outcomes with different facts; can its effects be stated with fewer?",
+                lifted.outcomes[0].place if lifted else None,
             )
         raise UnsupportedError(
             f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?"
         )
     with watched(limits):
-        laws, part_laws = CostLaws(encoding, handle, limits).all()
-    return Grounding(problem, encoding, handle, laws, part_laws, switches)
-
-
-def _refuse_outcomes(problem: Problem) -> None:
-    """Refuse actions with several outcomes: no sequence of actions does for sure what a plan promises."""
-    for action in problem.domain.actions.values():
-        for block in action.outcomes:
-            raise UnsupportedError(
-                f"action '{action.name}' changes facts by chance, which plans cannot answer", block.place
-            )
+        outcomes = Outcomes(encoding, handle)
+        probabilities = outcomes.probabilities()
+        laws, part_laws = CostLaws(encoding, handle, outcomes, limits).all()
+    return Grounding(problem, encoding, handle, laws, part_laws, switches, probabilities)

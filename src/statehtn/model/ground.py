@@ -7,6 +7,7 @@ compound task `c` is task `len(actions) + c`. The order of facts inside sets car
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 
 from statehtn.model.cost.law import CostLaw
@@ -43,7 +44,9 @@ class GroundAction:
     """A ground action. Those that stand for a method's precondition or the goal (`is_precondition`) cost 0.
 
     `cost` is what is due in every state; `cost_parts` come on top of it. An action whose precondition is a disjunction
-    stands here several times, once for each case; a compound task of the same name then chooses between them.
+    stands here several times, once for each case; a compound task of the same name then chooses between them. So does
+    an action with several outcomes, once for each of them: nature chooses it with its `probability`, and the compound
+    task is one of `GroundProblem.chance_tasks`.
     """
 
     name: str
@@ -54,6 +57,7 @@ class GroundAction:
     cost: CostLaw
     is_precondition: bool = False
     cost_parts: tuple[GroundCostPart, ...] = ()
+    probability: Fraction = Fraction(1)
 
     def is_applicable(self, state: frozenset[int]) -> bool:
         """Tell whether the action can be executed in a state."""
@@ -92,8 +96,9 @@ class GroundMethod:
 class GroundProblem:
     """A ground cost-variable HTN problem with one initial task, whose only methods stand for the initial network.
 
-    Where it is plain, every method is one of the domain's, or a case of an action. Otherwise it may be a part
-    of one, or several that were applied at once.
+    Where it is plain, every method is one of the domain's, or a case or an outcome of an action. Otherwise it may be a
+    part of one, or several that were applied at once. `chance_tasks` are those whose method nature chooses; where the
+    agent chooses it, this is the all-outcomes determinisation.
     """
 
     facts: tuple[Fact, ...]
@@ -103,6 +108,7 @@ class GroundProblem:
     initial_state: frozenset[int]
     initial_task: int
     is_plain: bool = True
+    chance_tasks: frozenset[int] = frozenset()
 
     @cached_property
     def methods_of(self) -> dict[int, tuple[int, ...]]:

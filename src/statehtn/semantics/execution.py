@@ -9,20 +9,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from statehtn.errors import UnsupportedError
-from statehtn.model.cost.ground_cost import action_law, is_unconditional
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.formula import TRUE, predicates
 from statehtn.model.plan import Plan, Step
-from statehtn.model.problem import Action, Effect, Fact
-from statehtn.model.types import Parameter
-from statehtn.semantics.condition import NOWHERE, Condition
-from statehtn.semantics.formulas import Bindings
-from statehtn.semantics.history import History, State
-from statehtn.semantics.world import World, substitute
+from statehtn.model.problem import Fact
+from statehtn.semantics.actions import GroundAction, LiftedAction, ground_action
+from statehtn.semantics.chances import StepOutcome
+from statehtn.semantics.condition import Condition
+from statehtn.semantics.history import History
+from statehtn.semantics.outcomes import Changes, outcome_that_came
+from statehtn.semantics.world import World
 
-DueParts = tuple[tuple[int, tuple[str, ...]], ...]
-"""The conditional parts of a cost that are due: (index of the block, objects of its variables)."""
-NOTHING: frozenset[Fact] = frozenset()
 NO_EFFECTS: tuple[frozenset[Fact], frozenset[Fact]] = (frozenset(), frozenset())
 
 
@@ -35,148 +31,62 @@ class Execution:
     reasons: tuple[str, ...]
 
 
-def execute(plan: Plan, world: World) -> Execution:
+def execute(
+    plan: Plan, world: World, came: Sequence[Changes] | None = None, seen: frozenset[Fact] | None = None
+) -> Execution:
     """Run a plan from the initial state and test the goal at its end.
 
     A step that cannot be executed is reported, and the run goes on with its effects as if it could (without them where
     it is no action at all), so that later mistakes are found as well.
+
+    Args:
+        plan: the plan, or the actions of a run in which chance has chosen.
+        world: the problem, and limits.
+        came: what came of each step, where some have several outcomes.
+        seen: facts by which outcomes are told apart; None for all facts.
+
+    Raises:
+        UnsupportedError: a step has several outcomes, and what came of it is not given.
     """
-    problem = world.problem
-    history = History(problem.initial_state)
-    lifted: dict[str, _LiftedAction] = {}
-    known: dict[Step, _GroundAction | str] = {}
+    history = History(world.problem.initial_state)
+    lifted: dict[str, LiftedAction] = {}
+    known: dict[Step, GroundAction | str] = {}
     costs: list[CostLaw] = []
     reasons: list[str] = []
-    for step in world.limited(plan.steps):
+    for number, step in enumerate(world.limited(plan.steps)):
         action = known.get(step)
         if action is None:
-            action = known[step] = _ground(step, lifted, world)
+            action = known[step] = ground_action(step, lifted, world)
         wrong = action if isinstance(action, str) else action.wrong(history)
+        changes = NO_EFFECTS if isinstance(action, str) else action.effects(history)
+        if not wrong and isinstance(action, GroundAction) and action.has_outcomes:
+            outcome = _outcome(step, action, history, None if came is None else came[number], seen)
+            if outcome is None:
+                wrong = "what came of it is none of its outcomes"
+            else:
+                changes = outcome.added, outcome.deleted
+                costs += [] if reasons else [outcome.law]
+        elif not wrong and isinstance(action, GroundAction) and not reasons:
+            costs.append(action.cost(history))
         if wrong:
             reasons.append(f"step {history.end + 1} {step}: {wrong}")
-        elif isinstance(action, _GroundAction) and not reasons:
-            costs.append(action.cost(history))
-        history.advance(*(NO_EFFECTS if isinstance(action, str) else action.effects(history)))
+        history.advance(*changes)
     end = history.at(history.end)
-    goal = Condition(problem.goal, world).ground({})
+    goal = Condition(world.problem.goal, world).ground({})
     if not goal.holds(end):
         reasons.append(f"the goal does not hold in the end: {goal.why_false(end)}")
     return Execution(history, tuple(costs), tuple(reasons))
 
 
-def _ground(step: Step, lifted: dict[str, _LiftedAction], world: World) -> _GroundAction | str:
-    """Return the action of a step; if there is no such action, say why."""
-    if step.action not in lifted:
-        action = world.problem.domain.actions.get(step.action)
-        if action is None:
-            return f"there is no action '{step.action}'"
-        lifted[step.action] = _LiftedAction(action, world)
-    parameters = lifted[step.action].action.parameters
-    if len(step.arguments) != len(parameters):
-        return f"expected {len(parameters)} arguments, found {len(step.arguments)}"
-    return _GroundAction(lifted[step.action], step)
-
-
-def wrong_arguments(parameters: tuple[Parameter, ...], arguments: tuple[str, ...], world: World) -> str | None:
-    """Say why objects do not fit typed parameters; None if they do."""
-    if len(arguments) != len(parameters):
-        return f"expected {len(parameters)} arguments, found {len(arguments)}"
-    for parameter, name in zip(parameters, arguments, strict=True):
-        if name not in world.problem.all_objects:
-            return f"there is no object '{name}'"
-        if not world.is_of_type(name, parameter.types):
-            return f"'{name}' is a {world.problem.all_objects[name]}, expected {parameter}"
-    return None
-
-
-class _LiftedAction:
-    """An action with its formulas compiled."""
-
-    def __init__(self, action: Action, world: World) -> None:
-        for block in action.outcomes:
-            raise UnsupportedError(
-                f"action '{action.name}' changes facts by chance, which plans cannot answer", block.place
-            )
-        self.action = action
-        self.world = world
-        self.precondition = Condition(action.precondition, world)
-        self.effects = [(effect, Condition(effect.condition, world)) for effect in action.effects]
-        self.costs = [
-            (index, block, Condition(block.condition, world))
-            for index, block in enumerate(action.costs)
-            if not is_unconditional(block)
-        ]
-        read = {name for _, block, _ in self.costs for name in predicates(block.condition)}
-        self.hidden = [
-            frozenset(fact for fact in scenario.facts if fact[0] in read) for scenario in world.problem.scenarios
-        ] or [NOTHING]
-        """For each scenario what the costs read of it; once nothing where there are none."""
-
-
-class _GroundAction:
-    """An action with objects for its parameters, and what it does in any state."""
-
-    def __init__(self, lifted: _LiftedAction, step: Step) -> None:
-        action = lifted.action
-        self._lifted = lifted
-        self._step = step
-        self._bindings = {p.name: name for p, name in zip(action.parameters, step.arguments, strict=True)}
-        self.wrong_arguments = wrong_arguments(action.parameters, step.arguments, lifted.world)
-        self.precondition = lifted.precondition.ground(self._bindings)
-        self._costs: dict[tuple[DueParts, ...], CostLaw] = {}
-        certain = [(effect, condition) for effect, condition in lifted.effects if effect.condition == TRUE]
-        added, deleted = _changes(certain, self._bindings, NOWHERE)
-        self._certain = added, deleted - added
-        self._conditional = [pair for pair in lifted.effects if pair not in certain]
-
-    def wrong(self, history: History) -> str | None:
-        """Say why the action cannot be executed in the last state; None if it can."""
-        if self.wrong_arguments:
-            return self.wrong_arguments
-        if self.precondition.holds_now(history):
-            return None
-        return f"its precondition does not hold: {self.precondition.why_false(history.at(history.end))}"
-
-    def effects(self, history: History) -> tuple[frozenset[Fact], frozenset[Fact]]:
-        """Return the facts that it makes true in the last state, and those that it makes false."""
-        if not self._conditional:
-            return self._certain
-        added, deleted = _changes(self._conditional, self._bindings, history.at(history.end))
-        added |= self._certain[0]
-        return added, (deleted | self._certain[1]) - added
-
-    def cost(self, history: History) -> CostLaw:
-        """Return the law of its cost in the last state."""
-        lifted = self._lifted
-        due = self._due_parts(history) if lifted.costs else ((),) * len(lifted.hidden)
-        if due not in self._costs:
-            self._costs[due] = action_law(lifted.action, self._step.arguments, due, lifted.world.problem)
-        return self._costs[due]
-
-    def _due_parts(self, history: History) -> tuple[DueParts, ...]:
-        """Return the conditional parts of its cost that are due in the last state, in each scenario."""
-        known = {hidden: self._due_in(history.at(history.end, hidden)) for hidden in set(self._lifted.hidden)}
-        return tuple(known[hidden] for hidden in self._lifted.hidden)
-
-    def _due_in(self, state: State) -> DueParts:
-        return tuple(
-            (index, objects)
-            for index, block, condition in self._lifted.costs
-            for objects in sorted(
-                tuple(extended[parameter.name] for parameter in block.parameters)
-                for extended in condition.solutions(block.parameters, self._bindings, state)
-            )
+def _outcome(
+    step: Step, action: GroundAction, history: History, came: Changes | None, seen: frozenset[Fact] | None
+) -> StepOutcome | None:
+    """Return the outcome of a step that came; None if what came is none of them."""
+    outcomes = action.outcomes(history, seen)
+    if came is not None:
+        return outcome_that_came(outcomes, came, history.now, seen)
+    if len(outcomes) > 1:
+        raise UnsupportedError(
+            f"step {history.end + 1} {step} has {len(outcomes)} outcomes here, and a plan does not say which one came"
         )
-
-
-def _changes(
-    effects: Sequence[tuple[Effect, Condition]], bindings: Bindings, state: State
-) -> tuple[frozenset[Fact], frozenset[Fact]]:
-    """Return the facts that effects make true and false; conditions are those of the state before."""
-    added: set[Fact] = set()
-    deleted: set[Fact] = set()
-    for effect, condition in effects:
-        changed = added if effect.positive else deleted
-        for extended in condition.solutions(effect.parameters, bindings, state):
-            changed.add((effect.atom.predicate, *substitute(effect.atom.arguments, extended)))
-    return frozenset(added), frozenset(deleted)
+    return outcomes[0]

@@ -14,8 +14,8 @@ from statehtn.model.formula import TRUE, And, Formula
 from statehtn.model.plan import Decomposition, Step
 from statehtn.model.problem import Method, TaskNetwork
 from statehtn.model.types import Parameter
+from statehtn.semantics.actions import wrong_arguments
 from statehtn.semantics.condition import NOWHERE, Condition, GroundCondition
-from statehtn.semantics.execution import wrong_arguments
 from statehtn.semantics.world import World, substitute
 from statehtn.validation.tree import PlanTree
 

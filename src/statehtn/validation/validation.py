@@ -9,14 +9,16 @@ from typing import Any
 
 from statehtn.collector import without_collector
 from statehtn.counted import brief, counted
+from statehtn.errors import UsageError
 from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_plan, expect_problem, expect_utility
 from statehtn.model.plan import Plan, Step
-from statehtn.model.problem import Problem
+from statehtn.model.problem import Fact, Problem
 from statehtn.model.status import Status
 from statehtn.risk import Utility, plan_expected_cost, plan_risk_cost
 from statehtn.semantics.execution import execute
+from statehtn.semantics.outcomes import Changes
 from statehtn.semantics.world import World
 from statehtn.validation.decomposition import match_networks
 from statehtn.validation.ordering import check_ordering
@@ -94,16 +96,47 @@ def validate(problem: Problem, plan: Plan, limits: Limits = Limits()) -> Validat
         InputError: the cost of a step is not defined (a value is missing in `:init`, say).
         LimitReached: a limit was reached before the plan was checked.
     """
-    world = World(expect_problem(problem), limits)
-    expect_plan(plan)
+    return _checked(expect_problem(problem), expect_plan(plan), None, None, limits)
+
+
+def _checked(
+    problem: Problem, plan: Plan, came: Sequence[Changes] | None, seen: frozenset[Fact] | None, limits: Limits
+) -> Validation:
+    world = World(problem, limits)
     with without_collector():
-        execution = execute(plan, world)
+        execution = execute(plan, world, came, seen)
         tree = PlanTree(plan, world)
         matching = match_networks(tree, world)
         reasons = [*execution.reasons, *matching.reasons]
         if not matching.reasons:
             reasons += check_ordering(tree, matching, world, execution.history)
     return Validation(told_once(reasons), execution.costs)
+
+
+def validate_trajectory(
+    problem: Problem,
+    plan: Plan,
+    came: Sequence[Changes],
+    seen: frozenset[Fact] | None = None,
+    limits: Limits = Limits(),
+) -> Validation:
+    """Check a run in which chance has chosen: whether its steps, what came of them and its decomposition are right.
+
+    Args:
+        problem: the problem, in which actions may have several outcomes.
+        plan: the actions of a run that is done, and their decomposition.
+        came: for each step the facts that are true after it and those that are false; others are as before.
+        seen: facts by which outcomes are told apart, such as those of the ground problem; None for all facts.
+        limits: of the checking.
+
+    Raises:
+        UsageError: there is not one of `came` for each step.
+        InputError: a cost or a probability is not defined.
+        LimitReached: a limit was reached before the run was checked.
+    """
+    if len(came) != len(plan.steps):
+        raise UsageError(f"a run of {counted(len(plan.steps), 'step')} needs what came of each, found {len(came)}")
+    return _checked(expect_problem(problem), plan, came, seen, limits)
 
 
 def execute_steps(problem: Problem, steps: Sequence[Step], limits: Limits = Limits()) -> Validation:

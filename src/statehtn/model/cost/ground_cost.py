@@ -35,7 +35,7 @@ MOST_PAIRS = 1024
 """An action whose parts together have more outcomes, or more combinations, has a sum of laws as its law."""
 
 Blocks = Iterable[tuple[int, tuple[str, ...]]]
-"""Some cost blocks of a ground action: (index in `Action.costs`, objects of the block's variables)."""
+"""Some cost blocks of a ground action: (index in `Action.all_costs`, objects of the block's variables)."""
 
 ExactLaw = dict[Fraction, Fraction]
 """A cost distribution in exact numbers: the probability of every cost; the probabilities sum to exactly 1."""
@@ -57,7 +57,7 @@ def block_law(
     """Return the law of one cost block of a ground action, in a state where its condition holds.
 
     Args:
-        block: one of `action.costs`.
+        block: one of `action.all_costs`.
         action: the lifted action.
         arguments: one object for each parameter of the action; an external cost is called with them.
         objects: one object for each of the block's own parameters.
@@ -121,8 +121,8 @@ def sum_of_blocks(
     laws: list[CostLaw] = []
     for scenario, given in zip(problem.scenarios, blocks, strict=True):
         due = tuple(given)
-        decided = [index for index, _ in due if action.costs[index].cases]
-        key = due, tuple(action.costs[index].case(scenario.facts) for index in decided)
+        decided = [index for index, _ in due if action.all_costs[index].cases]
+        key = due, tuple(action.all_costs[index].case(scenario.facts) for index in decided)
         if key not in known:
             known[key] = sum_in_scenario(action, arguments, due, problem.function_values, scenario.facts)
         laws.append(known[key])
@@ -152,7 +152,7 @@ def sum_in_scenario(
     exact: list[ExactLaw] = []
     others: list[CostLaw] = []
     for index, objects in blocks:
-        part = _block(action.costs[index], action, arguments, objects, values, hidden)
+        part = _block(action.all_costs[index], action, arguments, objects, values, hidden)
         if isinstance(part, CostLaw):
             others.append(part)
         else:
@@ -164,7 +164,7 @@ def sum_in_scenario(
         raise InputError(
             f"the cost of {_name(action, arguments)} can be {max(largest, law.mean):g}, and numbers above "
             f"{LARGEST_COST:g} become too large when the costs of a plan are added up; state costs in a larger unit",
-            next((place for index, _ in blocks if (place := action.costs[index].place) is not None), None),
+            next((place for index, _ in blocks if (place := action.all_costs[index].place) is not None), None),
         )
     return law
 
