@@ -13,6 +13,8 @@ from statehtn.build import (
     CostPart,
     EffectPart,
     Occurrence,
+    Outcome,
+    OutcomePart,
     ProblemBuilder,
     Quantified,
     Type,
@@ -21,7 +23,7 @@ from statehtn.build import (
     when,
 )
 from statehtn.hddl import read_hddl_text, write_hddl
-from statehtn.model import TRUE, CostBlock, Effect, Method, Parameter, Problem, TaskNetwork, TypeHierarchy
+from statehtn.model import TRUE, CostBlock, Effect, Method, OutcomeBlock, Parameter, Problem, TaskNetwork, TypeHierarchy
 from tests.property.test_hddl_roundtrip import problem_is_complete, problems
 
 
@@ -53,6 +55,7 @@ class Rebuilder:
                 precondition=action.precondition,
                 effects=[self.effect(effect) for effect in action.effects],
                 cost=[self.cost(block) for block in action.costs],
+                outcomes=[self.outcomes(block) for block in action.outcomes],
             )
         for method in domain.methods.values():
             self.method(method)
@@ -83,6 +86,14 @@ class Rebuilder:
         if block.condition != TRUE:
             part = when(block.condition, part)
         return forall(self.variables(block.parameters), part) if block.parameters else part
+
+    def outcomes(self, block: OutcomeBlock) -> OutcomePart:
+        parts = [
+            Outcome(one.probability, [self.effect(effect) for effect in one.effects], [self.cost(c) for c in one.costs])
+            for one in block.outcomes
+        ]
+        part: OutcomePart = parts if block.condition == TRUE else when(block.condition, *parts)
+        return Quantified(block.parameters, (part,)) if block.parameters else part
 
     def method(self, method: Method) -> None:
         variables = self.variables(method.parameters)
