@@ -55,12 +55,14 @@ ProgressionOptions progression_options(const PolicySwitches& switches) {
 }  // namespace
 
 PolicyProgression::PolicyProgression(const AnalysedProblem& problem, const std::vector<bool>& free_actions,
-                                     const SeenCosts& seen, const PolicySwitches& switches, Limits& limits)
+                                     const SeenCosts& seen, const PolicyOptions& options, Limits& limits)
     : problem_(problem),
       transition_(problem),
-      progression_(problem, free_actions, progression_options(switches), limits),
-      is_uncertain_(uncertain_tasks(problem, seen, limits)) {
-    if (switches.stubborn_sets) {
+      progression_(problem, free_actions, progression_options(options), limits),
+      is_uncertain_(uncertain_tasks(problem, seen, limits)),
+      uses_lone_members_(options.lone_members),
+      only_done_runs_pay_(options.only_done_runs_pay) {
+    if (options.stubborn_sets) {
         stubborn_set_.emplace(problem, limits, &is_uncertain_);
     }
 }
@@ -97,6 +99,10 @@ void PolicyProgression::choose(StateId state, NetworkId network) {
         return;
     }
     const OrderedTasks& ordered = ordered_tasks(network);
+    find_uncertain(ordered);
+    if (uses_lone_members_ && !uncertain_.empty() && choose_lone_member(state, ordered)) {
+        return;
+    }
     const std::optional<Occurrence> compound = compound_to_decompose(ordered);
     const auto actions = stubborn_set_->find(ordered, states()[state], unconstrained_);
     if (actions && (!compound || actions->size() <= problem_.methods_of(compound->task).size())) {
@@ -108,14 +114,27 @@ void PolicyProgression::choose(StateId state, NetworkId network) {
     }
 }
 
-// The compound task with the fewest methods of those whose decomposition waits for nothing.
-std::optional<Occurrence> PolicyProgression::compound_to_decompose(const OrderedTasks& ordered) {
+void PolicyProgression::find_uncertain(const OrderedTasks& ordered) {
     uncertain_.clear();
     for (std::uint32_t index = 0; index < ordered.tasks.size(); ++index) {
         if (is_uncertain_[ordered.tasks[index]]) {
             uncertain_.push_back(index);
         }
     }
+}
+
+// Rule (3). False where it says nothing.
+bool PolicyProgression::choose_lone_member(StateId state, const OrderedTasks& ordered) {
+    const auto actions = stubborn_set_->find(ordered, states()[state], unconstrained_, false);
+    if (!actions || actions->size() > (only_done_runs_pay_ ? 1 : 0)) {
+        return false;
+    }
+    chosen_.assign(actions->begin(), actions->end());
+    return true;
+}
+
+// The compound task with the fewest methods of those whose decomposition waits for nothing.
+std::optional<Occurrence> PolicyProgression::compound_to_decompose(const OrderedTasks& ordered) const {
     std::optional<Occurrence> best;
     for (const Occurrence& occurrence : unconstrained_) {
         const bool waits = is_action(occurrence.task) || std::ranges::any_of(uncertain_, [&](std::uint32_t other) {

@@ -10,8 +10,10 @@ namespace relax {
 
 std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks& network,
                                                              std::span<const std::uint64_t> state,
-                                                             std::span<const Occurrence> unconstrained) {
+                                                             std::span<const Occurrence> unconstrained,
+                                                             bool is_certain) {
     assert(state.size() == transition_.word_count());
+    is_certain_ = is_certain;
     turn_round(network, successors_);
     work_ += network.tasks.size() + network.predecessors.size();
     occurring_.clear();
@@ -22,10 +24,10 @@ std::optional<std::span<const Occurrence>> StubbornSet::find(const OrderedTasks&
     is_applicable_.assign(network.words, 0);
     compounds_.reads.clear();
     compounds_.makes.clear();
-    are_compounds_uncertain_ = false;
+    are_compounds_kept_out_ = false;
     for (const Occurrence& occurrence : unconstrained) {
         if (!is_action(occurrence.task)) {
-            are_compounds_uncertain_ = are_compounds_uncertain_ || is_uncertain(occurrence.task);
+            are_compounds_kept_out_ = are_compounds_kept_out_ || is_kept_out(occurrence.task);
             compounds_.reads.insert_all(occurring_[occurrence.index]->reads);
             compounds_.makes.insert_all(occurring_[occurrence.index]->makes);
             continue;
@@ -73,13 +75,13 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
     for (std::size_t next = 0; next < members_.size(); ++next) {
         limits_.stop_if_reached();
         const std::uint32_t member = members_[next];
-        if (are_compounds_uncertain_ || concerns(compounds_, member, state)) {
+        if (are_compounds_kept_out_ || concerns(compounds_, member, state)) {
             return false;
         }
         work_ += network.tasks.size();
         for (std::uint32_t other = 0; other < network.tasks.size(); ++other) {
             if (has_bit(is_member_, other) || has_bit(is_after_, other) ||
-                !(is_uncertain(network.tasks[other]) || concerns(*occurring_[other], member, state))) {
+                !(is_kept_out(network.tasks[other]) || concerns(*occurring_[other], member, state))) {
                 continue;
             }
             if (has_bit(is_open_, other)) {

@@ -777,6 +777,8 @@ class PolicySpace:
         skip_dead_methods: bool = True,
         stubborn_sets: bool = True,
         forget_facts: bool = True,
+        lone_members: bool = True,
+        only_done_runs_pay: bool = False,
         most_nodes: int = 1048576,
         seconds: float | None = None,
         memory_bytes: int | None = None,

@@ -42,6 +42,12 @@ struct PolicySwitches {
     bool skip_dead_methods = true;  // as in ProgressionSwitches, all of them
     bool stubborn_sets = true;
     bool forget_facts = true;
+    bool lone_members = true;  // rule (3) below, with stubborn sets
+};
+
+struct PolicyOptions : PolicySwitches {
+    // What a run has cost that is not done does not matter: it makes the policy worthless, or is as bad as it can be.
+    bool only_done_runs_pay = false;
 };
 
 // What an agent may do in a state with a task network, where actions have several outcomes: the decisions among which
@@ -71,6 +77,18 @@ struct PolicySwitches {
 // probabilities; where it stops sooner, by its own decision, it has paid no more. So it is worth as much to every agent
 // that minds nothing but what was spent in total and whether it was done.
 //
+// Where R may be uncertain, let S be a stubborn set of actions of which at most one, b, is applicable.
+//
+// (3) If none is, nothing is left to try. If b is, it is enough where only runs that are done have to pay.
+//
+// Proof. Before a run comes to a member of S, it executes actions of R, so that by the second condition of StubbornSet
+// the other members stay inapplicable: every run that is done executes b first of S, and none is done if there is no b.
+// Let the policy begin with b and then go on as it would have without it, but for b itself; what it has seen of b it
+// heeds only where it comes to b. It can, since b commutes with all that comes before it, for each of its outcomes.
+// Runs that are done come to the same states at the same total costs with the same probabilities. Others may have paid
+// for b in vain, which does not matter. (With a price of failure it would: an agent that gives up because of what it
+// has seen elsewhere need not have paid for b.)
+//
 // Always first: an action that costs and changes nothing, and is applicable, is executed at once, and a compound task
 // with one method is decomposed at once. Every policy that is done does so at some time; doing it now takes constraints
 // away, costs nothing and shows nothing, so that the policy can go on as if it had not been done, and skip it later.
@@ -80,7 +98,7 @@ public:
     //
     // `free_actions`: by ActionId, those that certainly cost nothing.
     PolicyProgression(const AnalysedProblem& problem, const std::vector<bool>& free_actions, const SeenCosts& seen,
-                      const PolicySwitches& switches, Limits& limits);
+                      const PolicyOptions& options, Limits& limits);
 
     StateId initial_state() { return progression_.initial_state(); }
     NetworkId initial_network() { return progression_.initial_network(); }
@@ -105,7 +123,9 @@ private:
     }
     bool is_first(const Occurrence& occurrence, StateId state) const;
     void choose(StateId state, NetworkId network);
-    std::optional<Occurrence> compound_to_decompose(const OrderedTasks& ordered);
+    bool choose_lone_member(StateId state, const OrderedTasks& ordered);
+    void find_uncertain(const OrderedTasks& ordered);
+    std::optional<Occurrence> compound_to_decompose(const OrderedTasks& ordered) const;
     void add_decisions(StateId state, NetworkId network, const Occurrence& occurrence,
                        std::vector<PolicyDecision>& decisions);
 
@@ -114,6 +134,8 @@ private:
     Progression progression_;
     std::vector<bool> is_uncertain_;  // by TaskId
     std::optional<StubbornSet> stubborn_set_;
+    bool uses_lone_members_;
+    bool only_done_runs_pay_;
     // Of the node looked at.
     std::vector<Occurrence> unconstrained_;
     std::vector<Occurrence> chosen_;

@@ -35,7 +35,8 @@ namespace relax {
 // The set is closed by adding what violates (1) or (2): an action of R that is unconstrained itself, or else an
 // unconstrained action before it, which takes it out of R.
 //
-// For policies (PolicyProgression) chance tasks are actions, and nothing of R is uncertain, either.
+// For policies (PolicyProgression) chance tasks are actions, and nothing of R is uncertain, either, unless it is asked
+// for sets without that condition.
 class StubbornSet {
 public:
     // `uncertain`: for policies, by TaskId; it must live longer.
@@ -48,8 +49,10 @@ public:
 
     // Find the applicable members of the smallest such set: where there are none, the node is a dead end. Nothing,
     // where every set would have to contain a compound task. Valid until the next call. Throws Stopped.
+    //
+    // `is_certain`: whether what is uncertain is kept out of R.
     std::optional<std::span<const Occurrence>> find(const OrderedTasks& network, std::span<const std::uint64_t> state,
-                                                    std::span<const Occurrence> unconstrained);
+                                                    std::span<const Occurrence> unconstrained, bool is_certain = true);
 
     // How many tasks and words of their order it has looked at so far.
     std::uint64_t work() const { return work_; }
@@ -58,7 +61,7 @@ private:
     bool is_action(TaskId task) const {
         return problem_.is_primitive(task) || (uncertain_ != nullptr && problem_.is_chance(task));
     }
-    bool is_uncertain(TaskId task) const { return uncertain_ != nullptr && (*uncertain_)[task]; }
+    bool is_kept_out(TaskId task) const { return uncertain_ != nullptr && is_certain_ && (*uncertain_)[task]; }
     bool close(const OrderedTasks& network, std::span<const std::uint64_t> state, std::uint32_t seed);
     bool concerns(const TaskProfile& other, std::uint32_t member, std::span<const std::uint64_t> state) const;
     std::optional<std::uint32_t> open_before(const OrderedTasks& network, std::uint32_t task) const;
@@ -73,8 +76,9 @@ private:
     std::vector<const TaskProfile*> occurring_;  // by occurrence
     std::vector<std::uint64_t> is_open_;         // a row: the unconstrained actions
     TaskProfile compounds_;                      // what the unconstrained compound tasks read and make, together
-    bool are_compounds_uncertain_ = false;       // whether one of them is
-    std::vector<std::uint64_t> is_applicable_;   // a row
+    bool are_compounds_kept_out_ = false;        // whether one of them has to be
+    bool is_certain_ = true;
+    std::vector<std::uint64_t> is_applicable_;  // a row
     // The set being made.
     std::vector<std::uint32_t> members_;
     std::vector<std::uint64_t> is_member_;  // a row
