@@ -48,11 +48,12 @@ std::unique_ptr<relax::AnalysedProblem> grounded(const relax::LiftedProblem& pro
 
 // Two tasks without an order: C is done by c1, which costs 0 or 6, or by c2 for 20; D by d1 for 5, or by d2 for 0 or 9;
 // all with probability 1/2. Which method of D is best depends on what c1 cost.
-relax::LiftedProblem two_choices() {
+relax::LiftedProblem two_choices(bool is_swapped) {
     relax::LiftedProblem problem;
     problem.actions.resize(4);
     problem.tasks.resize(3);
-    problem.methods = {method(4, {0}), method(4, {1}), method(5, {2}), method(5, {3}), method(6, {4, 5})};
+    problem.methods = {method(4, {0}), method(4, {1}), method(5, {2}), method(5, {3}),
+                       is_swapped ? method(6, {5, 4}) : method(6, {4, 5})};
     problem.initial_task = 6;
     return problem;
 }
@@ -77,18 +78,26 @@ double late(const relax::AnalysedProblem& problem, const relax::PolicySpace& spa
     return least;
 }
 
-bool waits_for_costs(bool are_seen, double expected) {
-    const auto problem = grounded(two_choices());
+// The same where the agent's decisions are those of one that sees costs, or does not look.
+double late(bool is_swapped, bool are_seen) {
+    const auto problem = grounded(two_choices(is_swapped));
     relax::Limits limits;
     const std::vector<bool> free(problem->action_count(), false);
-    std::vector<bool> seen;
+    std::vector<bool> uncertain;
     for (const ActionId action : problem->actions()) {
-        seen.push_back(problem->action_schema[action] % 3 == 0);
+        uncertain.push_back(problem->action_schema[action] % 3 == 0);
     }
-    const relax::SeenCosts costs = are_seen ? relax::SeenCosts{seen, {}} : relax::SeenCosts{};
+    const relax::SeenCosts costs = are_seen ? relax::SeenCosts{uncertain, {}} : relax::SeenCosts{};
     relax::PolicyProgression progression(*problem, free, costs, {}, limits);
     const relax::PolicySpace space(progression, 1000, limits);
-    return !space.stop() && std::abs(late(*problem, space, 0, 0) - expected) < 1e-12;
+    return late(*problem, space, 0, 0);
+}
+
+// If nothing is thought to be seen, one task is decomposed first: the wrong one, in one of the two orders.
+bool waits_for_costs() {
+    const auto is_near = [](double one, double other) { return std::abs(one - other) < 1e-12; };
+    return is_near(late(false, true), 0.25) && is_near(late(true, true), 0.25) &&
+           is_near(std::max(late(false, false), late(true, false)), 0.5);
 }
 
 // T is done where p holds, or tries a, which makes p true in the first of its two outcomes, and then T again.
@@ -153,8 +162,7 @@ bool counts_outcomes(bool are_read) {
 int main() {
     int passed = 0;
     int failed = 0;
-    for (const bool result : {waits_for_costs(true, 0.25), waits_for_costs(false, 0.5), tries_again(),
-                              counts_outcomes(true), counts_outcomes(false)}) {
+    for (const bool result : {waits_for_costs(), tries_again(), counts_outcomes(true), counts_outcomes(false)}) {
         ++(result ? passed : failed);
     }
     std::printf("%d passed, %d failed\n", passed, failed);

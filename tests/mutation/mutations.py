@@ -17,6 +17,8 @@ BEST_PLANS = "tests/differential/test_best_plans.py"
 PLAN_BASED = "tests/differential/test_plan_based.py"
 WALKS = "tests/differential/test_merged_sequences.py"
 RECURSION = "tests/differential/test_forced_recursion.py"
+POLICY_PROGRESSION = "tests/differential/test_policy_progression.py"
+GROUND_OUTCOMES = "tests/property/test_grounding_outcomes.py"
 PRECISION = "tests/differential/test_optimal_is_optimal.py"
 FINITE = "tests/differential/test_finite_objectives.py"
 FINITE_ALONE = f"{FINITE}::test_label_search_alone"
@@ -91,8 +93,8 @@ MUTATIONS = [
     Mutation(
         "dead methods: a first action is next although other tasks are unconstrained",
         "relax/progression/progression.cpp",
-        "!first_action_.empty() && unconstrained_.size() == 1",
-        "!first_action_.empty()",
+        "const bool comes_next = unconstrained_.size() == 1;",
+        "const bool comes_next = true;",
     ),
     Mutation(
         "potential: a list of tasks starts with its last one",
@@ -336,5 +338,68 @@ MUTATIONS = [
         "options().decided_scenarios && static_cast<double>(add_bounds(others[k], least[k])) > last_;",
         "options().decided_scenarios && static_cast<double>(add_bounds(others[k], least[k])) > last_ / 2;",
         (SCENARIOS_ALONE, CORRELATED),
+    ),
+    Mutation(
+        "policies: the choice of a method waits for nothing",
+        "relax/progression/policy_progression.cpp",
+        "return other != occurrence.index && !ordered.is_before(occurrence.index, other);",
+        "return false && other != occurrence.index && !ordered.is_before(occurrence.index, other);",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
+        "policies: costs tell nothing",
+        "relax/progression/policy_progression.cpp",
+        "const bool is_seen = !seen.actions.empty() && seen.actions[action];",
+        "const bool is_seen = false && !seen.actions.empty() && seen.actions[action];",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
+        "policies: what compound tasks lead to is certain",
+        "relax/progression/policy_progression.cpp",
+        "            mark(problem.method_task[method]);\n",
+        "            limits.stop_if_reached();\n",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
+        "policies: stubborn sets leave out uncertain actions",
+        "relax/progression/stubborn_set.cpp",
+        "!(is_kept_out(network.tasks[other]) || concerns(*occurring_[other], member, state))",
+        "!concerns(*occurring_[other], member, state)",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
+        "policies: stubborn sets leave out compound tasks that lead to uncertain actions",
+        "relax/progression/stubborn_set.cpp",
+        "if (are_compounds_kept_out_ || concerns(compounds_, member, state)) {",
+        "if (concerns(compounds_, member, state)) {",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
+        "policies: an action that commutes comes at once, even where failing has a price",
+        "relax/progression/policy_progression.cpp",
+        "(only_done_runs_pay_ ? 1 : 0)",
+        "1",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
+        "policies: chance tasks make what their first outcome makes",
+        "relax/analysis/task_profiles.cpp",
+        "        list(outcome.made_list, result.makes, result.made_list);\n",
+        "        result.made_list = result.made_list.empty() ? outcome.made_list : result.made_list;\n",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
+        "grounding: outcomes that change the same are one, whatever the conditions of their costs",
+        "relax/grounding/outcomes.cpp",
+        "const std::size_t number = is_mixed && mixture ? *mixture : outcomes_.size();",
+        "const std::size_t number = mixture ? *mixture : outcomes_.size();",
+        (GROUND_OUTCOMES,),
+    ),
+    Mutation(
+        "grounding: where outcomes are, the second block of an action always takes its first branch",
+        "relax/grounding/outcomes.cpp",
+        "chosen_[at] = (chosen_[at] + 1) % instances_[at].branches.size();",
+        "chosen_[at] = at > 0 ? 0 : (chosen_[at] + 1) % instances_[at].branches.size();",
+        (GROUND_OUTCOMES,),
     ),
 ]

@@ -104,9 +104,7 @@ def test_chance_tasks_are_well_formed(problem: Problem, switches: GroundingSwitc
         assert len(methods) > 1
         actions = [model.actions[subtask] for method in methods for subtask in method.subtasks]
         assert len(actions) == len(methods)
-        assert {(action.name, *action.arguments) for action in actions} == {
-            model.tasks[task - len(model.actions)]
-        }
+        assert {(action.name, *action.arguments) for action in actions} == {model.tasks[task - len(model.actions)]}
         assert len({(action.precondition, action.negative_precondition) for action in actions}) == 1
         rows = [handle.action_branches(subtask) for method in methods for subtask in method.subtasks]
         assert all(rows)
