@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ from statehtn.hddl.writer import expression_text, formula_text
 from statehtn.model.cost.blocks import CostBlock
 from statehtn.model.formula import TRUE
 from statehtn.model.ground import GroundCostPart, GroundMethod, GroundProblem
-from statehtn.model.problem import Problem, TaskNetwork
+from statehtn.model.problem import Action, Problem, TaskNetwork
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -38,7 +39,8 @@ def task_decomposition_graph(problem: Problem) -> nx.MultiDiGraph[str]:
         graph.add_node(f"task {task.name}", kind=Kind.COMPOUND, label=f"{task.name} {variables}".strip())
     for action in domain.actions.values():
         variables = " ".join(parameter.name for parameter in action.parameters)
-        cost = "; ".join(map(_cost_text, action.costs)) or ("1" if domain.has_unit_costs else "0")
+        parts = [*map(_cost_text, action.costs), *_outcome_costs(action)]
+        cost = "; ".join(parts) or ("1" if domain.has_unit_costs else "0")
         label = f"{action.name} {variables}".strip()
         graph.add_node(f"task {action.name}", kind=Kind.PRIMITIVE, label=label, cost=cost)
     for method in domain.methods.values():
@@ -59,6 +61,15 @@ def _cost_text(block: CostBlock) -> str:
     return text if block.condition == TRUE else f"{text} when {formula_text(block.condition)}"
 
 
+def _outcome_costs(action: Action) -> Iterator[str]:
+    """Yield what the outcomes of an action cost, in few words."""
+    for block in action.outcomes:
+        for outcome in block.outcomes:
+            if outcome.costs:
+                cost = " + ".join(map(_cost_text, block.costs_of(outcome)))
+                yield f"{cost} in an outcome w.p. {expression_text(outcome.probability)}"
+
+
 def _add_lifted_method(graph: nx.MultiDiGraph[str], name: str, task: str, network: TaskNetwork) -> None:
     node = f"method {name}".strip()
     graph.add_node(node, kind=Kind.METHOD, label=name or "network", ordering=network.ordering)
@@ -70,7 +81,8 @@ def _add_lifted_method(graph: nx.MultiDiGraph[str], name: str, task: str, networ
 def ground_task_decomposition_graph(problem: GroundProblem) -> nx.MultiDiGraph[str]:
     """Return the graph of the ground tasks and methods (Definition 4.6).
 
-    An action whose precondition is a disjunction is a compound task with a method for each case.
+    An action whose precondition is a disjunction is a compound task with a method for each case, and one with several
+    outcomes a compound task with a method for each of them: the graph is that of the all-outcomes determinisation.
     Method preconditions, which the ground problem has as actions without cost, are left out.
 
     Args:
@@ -118,7 +130,12 @@ def _add_ground_method(graph: nx.MultiDiGraph[str], problem: GroundProblem, numb
     ]
     place = {position: index for index, position in enumerate(real)}
     ordering = tuple((place[i], place[j]) for i, j in method.ordering if i in place and j in place)
-    label = "network" if method.task == problem.initial_task else " ".join((method.name, *method.arguments)) or "case"
+    label = " ".join((method.name, *method.arguments))
+    if method.task == problem.initial_task:
+        label = "network"
+    elif method.task in problem.chance_tasks:
+        (outcome,) = method.subtasks
+        label = f"outcome w.p. {float(problem.actions[outcome].probability):.6g}"
     graph.add_node(f"m{number}", kind=Kind.METHOD, label=label, ordering=ordering)
     graph.add_edge(f"t{method.task}", f"m{number}")
     for position, index in place.items():

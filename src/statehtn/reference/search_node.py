@@ -54,8 +54,11 @@ def initial_node(problem: GroundProblem) -> SearchNode:
     """Return the node of the initial state, the initial task and the empty plan.
 
     Raises:
-        ValueError: the problem is not plain, so that no decomposition could be read from it.
+        ValueError: the problem is not plain, so that no decomposition could be read from it, or an action has several
+            outcomes, of which a plan cannot choose one.
     """
+    if problem.chance_tasks:
+        raise ValueError("the reference search takes problems whose actions have one outcome")
     if not problem.is_plain:
         raise ValueError("the reference search takes plain ground problems: ground(problem, switches=PLAIN)")
     return SearchNode(problem.initial_state, TaskNetwork({0: problem.initial_task}))
