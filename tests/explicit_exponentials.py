@@ -148,12 +148,8 @@ class Cut:
     def layer(self, number: int) -> list[Pair]:
         spent = number * self.step
         choices = []
-        for done, decisions in zip(self.graph.done, self.graph.decisions, strict=True):
-            if done or self.failure_cost is not None:
-                final = spent if done else spent + self.failure_cost  # type: ignore[operator]
-                node = [Choice((Fraction(0), sum((term.at(final) for term in self.terms), NOTHING)))]
-            else:
-                node = [Choice((Fraction(1), NOTHING))]
+        for at, decisions in enumerate(self.graph.decisions):
+            node = [Choice(self.end(at, spent))] if self.graph.can_stop(at) else []
             for decision in decisions:
                 first, second = Fraction(0), NOTHING
                 weights = []
@@ -169,6 +165,14 @@ class Cut:
             choices.append(node)
         self.circles = self.circles or circles_of(choices)
         return best(choices, self.circles)[0]
+
+    def end(self, node: int, spent: Fraction) -> Pair:
+        """The value of stopping."""
+        if not self.graph.done[node]:
+            if self.failure_cost is None:
+                return Fraction(1), NOTHING
+            spent += self.failure_cost
+        return Fraction(0), sum((term.at(spent) for term in self.terms), NOTHING)
 
 
 def certain(terms: Sequence[Term], disutility: Decimal) -> Decimal:

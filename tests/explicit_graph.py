@@ -34,11 +34,18 @@ Decision = tuple[Branch, ...]
 
 @dataclass
 class ExplicitGraph:
-    """Nodes by number, 0 the first: which are done, and what can be decided in each."""
+    """Nodes by number, 0 the first: which are done, and what can be decided in each.
+
+    Where all is decided already, in a policy's graph, the agent gives up only at nodes without a decision.
+    """
 
     done: list[bool] = field(default_factory=list)
     decisions: list[list[Decision]] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
+    is_policy: bool = False
+
+    def can_stop(self, node: int) -> bool:
+        return not (self.is_policy and self.decisions[node])
 
     def add(self, name: str, done: bool = False) -> int:
         self.done.append(done)

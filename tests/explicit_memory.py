@@ -84,8 +84,10 @@ class Layers:
     def next_layer(self) -> list[Pair]:
         left = self.offset + len(self.layers) * self.step
         choices = []
-        for done, decisions in zip(self.graph.done, self.graph.decisions, strict=True):
-            node = [Choice((ZERO, self.payoff(left)) if done else self.given_up(left))]
+        for number, decisions in enumerate(self.graph.decisions):
+            node = []
+            if self.graph.can_stop(number):
+                node.append(Choice((ZERO, self.payoff(left)) if self.graph.done[number] else self.given_up(left)))
             for decision in decisions:
                 first = second = ZERO
                 weights = []

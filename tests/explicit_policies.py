@@ -55,11 +55,12 @@ class Recursion:
 
 def values_of(graph: ExplicitGraph, recursion: Recursion) -> tuple[list[Pair], list[list[Choice]], list[int]]:
     """The best value of every node, what could be chosen there, and what is chosen."""
-    choices = [
-        [Choice(recursion.done if done else recursion.given_up)]
-        + [choice_of([(b.probability, b.cost, b.successor) for b in decision], recursion) for decision in decisions]
-        for done, decisions in zip(graph.done, graph.decisions, strict=True)
-    ]
+    choices = []
+    for node, decisions in enumerate(graph.decisions):
+        end = recursion.done if graph.done[node] else recursion.given_up
+        stops = [Choice(end)] if graph.can_stop(node) else []
+        several = ([(b.probability, b.cost, b.successor) for b in decision] for decision in decisions)
+        choices.append(stops + [choice_of(branches, recursion) for branches in several])
     values, policy = best(choices)
     return values, choices, policy
 

@@ -8,11 +8,13 @@ from fractions import Fraction
 
 import numpy
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from tests.brute_force import GaveUp
 from tests.exact_laws import Law, Laws
 from tests.exact_objectives import exact_objective
+from tests.explicit_evar import best_policy_by_evar
 from tests.explicit_exponentials import best_policy_for_exponentials
 from tests.explicit_graph import ExplicitGraph, graph_of
 from tests.explicit_memory import INFINITE, best_policy_with_memory
@@ -221,6 +223,19 @@ def test_exponentials_against_all_histories(graph: ExplicitGraph, text: str) -> 
     else:
         value = exact_objective(text).value
         assert float(answer.value) == pytest.approx(float(min(value(law) for law in laws)), rel=1e-10, abs=1e-10)
+
+
+@settings(max_examples=10)
+@given(graph=decision_graphs(most_nodes=4, forward=True), level=st.sampled_from(("0.5", "0.9")))
+def test_evar_against_all_histories(graph: ExplicitGraph, level: str) -> None:
+    """Policies that do not look at what was spent are enough: every agent of the family is such a one."""
+    laws = laws_of(graph)
+    answer = best_policy_by_evar(graph, f"evar {level}", close=1e-3)
+    if not laws:
+        assert answer.value is None
+    else:
+        least = min(exact_objective(f"evar {level}").value(law) for law in laws)
+        assert float(least) - 1e-12 <= float(answer.value) <= float(least) + 1e-3 * max(1, least)
 
 
 def laws_of(graph: ExplicitGraph) -> list[Law]:
