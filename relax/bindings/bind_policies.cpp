@@ -83,7 +83,8 @@ void bind_policies(nb::module_& module) {
         .def(nb::init<>())
         .def_rw("recursion", &relax::PolicySearchOptions::recursion)
         .def_rw("precision", &relax::PolicySearchOptions::precision)
-        .def_rw("unit", &relax::PolicySearchOptions::unit);
+        .def_rw("unit", &relax::PolicySearchOptions::unit)
+        .def_rw("breaks_ties", &relax::PolicySearchOptions::breaks_ties);
 
     nb::class_<relax::PolicyStatistics>(module, "PolicyStatistics")
         .def_ro("expanded", &relax::PolicyStatistics::expanded)
@@ -93,7 +94,8 @@ void bind_policies(nb::module_& module) {
         .def_ro("rounds", &relax::PolicyStatistics::rounds)
         .def_ro("iterations", &relax::PolicyStatistics::iterations)
         .def_ro("lower", &relax::PolicyStatistics::lower)
-        .def_ro("upper", &relax::PolicyStatistics::upper);
+        .def_ro("upper", &relax::PolicyStatistics::upper)
+        .def_ro("cost", &relax::PolicyStatistics::cost);
 
     nb::class_<relax::PolicySearchResult>(module, "PolicySearchResult")
         .def_ro("stop", &relax::PolicySearchResult::stop)

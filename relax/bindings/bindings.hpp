@@ -14,5 +14,6 @@ void bind_policy_space(nanobind::module_& module);
 void bind_valuations(nanobind::module_& module);
 void bind_scenarios(nanobind::module_& module);
 void bind_policies(nanobind::module_& module);
+void bind_policy_search(nanobind::module_& module);
 
 #endif

@@ -26,4 +26,5 @@ NB_MODULE(_relax, module) {
     bind_label_search(module);
     bind_policies(module);
     bind_policy_space(module);
+    bind_policy_search(module);
 }

@@ -10,7 +10,7 @@ void Envelope::assign(std::span<const PolicyNodeId> members, Outside outside) {
     }
     places_.resize(graph_.size(), kOutside);
     members_.assign(members.begin(), members.end());
-    outside_ = outside;
+    set_outside(outside);
     barred_.clear();
     worths_.clear();
     choices_.clear();

@@ -14,10 +14,29 @@ constexpr std::uint32_t kMostRounds = 10000;
 
 void PolicyIteration::improve(Envelope& envelope, Recursion kind) {
     sure_region_.make_proper(envelope);
-    if (evaluation_.evaluate(envelope, kind) != LinearOutcome::Solved) {
+    if (evaluation_.evaluate(envelope, kind) != LinearOutcome::Solved && kind == Recursion::Averse) {
         start_finite(envelope);
     }
     iterate(envelope, kind);
+}
+
+void PolicyIteration::break_ties(Envelope& envelope, Recursion kind, const SegmentedArray<double>* outside) {
+    for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+        limits_.stop_if_reached();
+        const double most = envelope.worth(place) + kTieTolerance * std::max(1.0, std::abs(envelope.worth(place)));
+        const bool stops = envelope.stop(place) <= most;
+        if (stops) {
+            envelope.choose(place, kStop);
+        }
+        for (const DecisionId decision : envelope.graph().decisions_of(envelope.node(place))) {
+            if (stops || (decision != envelope.choice(place) && !(envelope.worth_by(place, kind, decision) <= most))) {
+                envelope.bar(place, decision);
+            }
+        }
+        envelope.set_stop(place, stops ? 0 : kNever);
+    }
+    envelope.set_outside(Outside::Given, outside);
+    improve(envelope, Recursion::ExpectedCost);
 }
 
 // Give nodes a finite policy where there is one, and let the others stop.

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace relax {
 
 namespace {
 
 constexpr std::uint32_t kRoundsUntilIteration = 8;  // without an open node, while choices still change
+constexpr std::uint32_t kQuietIterations = 4;       // then all that is explored is taken into the envelope
 constexpr std::size_t kPlunges = 1000;              // per round at least
 
 }  // namespace
@@ -19,12 +21,16 @@ PolicySearch::PolicySearch(DecisionSource& source, const PolicySearchOptions& op
       limits_(limits),
       statistics_(statistics),
       envelope_(graph_),
-      iteration_(limits) {}
+      iteration_(limits),
+      evaluation_(limits) {}
 
 PolicySearchResult PolicySearch::run() {
     PolicySearchResult result;
+    best_.reset();
+    statistics_.upper = kNever;
     result.stop = run_within_limits([this]() -> std::optional<StopReason> {
         root_ = source_.add_root(graph_);
+        note_costs();
         search();
         return std::nullopt;
     });
@@ -43,7 +49,9 @@ PolicySearchResult PolicySearch::run() {
 }
 
 void PolicySearch::search() {
-    std::uint32_t quiet_rounds = 0;
+    quiet_rounds_ = quiet_iterations_ = 0;
+    members_.clear();
+    ++gathering_;
     while (true) {
         const bool has_met_open = explore();
         ++statistics_.rounds;
@@ -51,9 +59,17 @@ void PolicySearch::search() {
         if (graph_[root_].lower == kNever) {
             return;
         }
-        quiet_rounds = has_met_open ? 0 : quiet_rounds + 1;
-        if (!has_met_open && (!has_changed_ || quiet_rounds >= kRoundsUntilIteration)) {
-            quiet_rounds = 0;
+        if (has_met_open) {
+            quiet_rounds_ = quiet_iterations_ = 0;
+            members_.clear();
+            ++gathering_;
+        }
+        gather(order_);
+        if (!has_met_open && (!has_changed_ || ++quiet_rounds_ >= kRoundsUntilIteration)) {
+            quiet_rounds_ = 0;
+            if (++quiet_iterations_ >= kQuietIterations) {
+                gather(explored_);
+            }
             if (improve_envelope() || graph_[root_].lower == kNever || is_near()) {
                 return;
             }
@@ -103,14 +119,15 @@ void PolicySearch::enter(PolicyNodeId node, bool& has_met_open) {
     }
     entered.visited = round_;
     if (!entered.is_expanded) {
-        has_met_open = true;
+        if (entered.lower >= entered.stop) {
+            return;  // it is known to be no better than stopping
+        }
         const double bound = source_.bound(node, entered.lower);
         ++statistics_.evaluated;
         const bool has_risen = bound > entered.lower + slack_of(entered.lower);
         entered.lower = std::max(entered.lower, std::min(bound, entered.stop));
-        if (entered.lower == kNever) {
-            ++statistics_.dead_ends;
-        }
+        statistics_.dead_ends += bound == kNever ? 1 : 0;
+        has_met_open = has_met_open || entered.lower < entered.stop;
         if (has_risen || plunges_left_ == 0) {
             return;
         }
@@ -127,6 +144,7 @@ void PolicySearch::expand(PolicyNodeId node) {
     source_.decide(graph_, node, drafts_);
     graph_.expand(node, drafts_);
     explored_.push_back(node);
+    note_costs();
     ++statistics_.expanded;
     statistics_.generated = graph_.size();
 }
@@ -160,38 +178,103 @@ bool PolicySearch::back_up(PolicyNodeId node) {
     backed.depth = depth;
     const bool has_risen = least > backed.lower + slack_of(backed.lower);
     backed.lower = std::max(backed.lower, least);
-    return has_risen;
+    return options_.breaks_ties ? back_up_cost(node, has_risen) : has_risen;
 }
 
-// Find the best policy of the nodes of the round, and make worths lower worths; says whether it is the best of all.
-bool PolicySearch::improve_envelope() {
+// Of the decisions that are as good as the best, take the one that costs least; says whether the node's worth or cost
+// rose.
+bool PolicySearch::back_up_cost(PolicyNodeId node, bool has_risen) {
+    DecisionGraph::Node& backed = graph_[node];
+    const double most = backed.lower + kTieTolerance * std::max(1.0, std::abs(backed.lower));
+    double least = backed.stop <= most ? 0 : kNever;
+    DecisionId choice = backed.stop <= most ? kStop : backed.choice;
+    if (least > 0) {
+        for (const DecisionId decision : graph_.decisions_of(node)) {
+            const double cost = worth_of_decision(graph_, Recursion::ExpectedCost, decision,
+                                                  [this](PolicyNodeId to) { return costs_[to]; });
+            if (cost < least && worth_of_decision(
+                                    graph_, options_.recursion, decision,
+                                    [this](PolicyNodeId to) { return graph_[to].lower; }) <= most) {
+                least = cost;
+                choice = decision;
+            }
+        }
+    }
+    has_changed_ = has_changed_ || choice != backed.choice;
+    backed.choice = choice;
+    const bool costs_more = least != kNever && least > costs_[node] + slack_of(costs_[node]);
+    costs_[node] = has_risen || costs_more ? (least == kNever ? 0 : least) : costs_[node];
+    return has_risen || costs_more;
+}
+
+// Nodes that are new cost nothing, as far as is known.
+void PolicySearch::note_costs() {
+    while (options_.breaks_ties && costs_.size() < graph_.size()) {
+        costs_.push_back(0);
+    }
+}
+
+// Find the best policy of the envelope.
+void PolicySearch::improve(Outside outside) {
     ++statistics_.iterations;
-    envelope_.assign(order_, Outside::Lower);
     iteration_.improve(envelope_, options_.recursion);
+    if (options_.breaks_ties) {
+        worths_.clear();
+        for (std::uint32_t place = 0; place < envelope_.size(); ++place) {
+            worths_.push_back(envelope_.worth(place));
+        }
+        iteration_.break_ties(envelope_, options_.recursion, outside == Outside::Lower ? &costs_ : nullptr);
+    }
+}
+
+// Take nodes into the envelope.
+void PolicySearch::gather(std::span<const PolicyNodeId> nodes) {
+    for (const PolicyNodeId node : nodes) {
+        DecisionGraph::Node& gathered = graph_[node];
+        if (gathered.gathered != gathering_ && gathered.lower != kNever) {
+            gathered.gathered = gathering_;
+            members_.push_back(node);
+        }
+    }
+}
+
+// Find the best policy of the nodes gathered, and make worths lower worths; says whether it is the best of all.
+bool PolicySearch::improve_envelope() {
+    std::erase_if(members_, [this](PolicyNodeId node) { return graph_[node].lower == kNever; });
+    envelope_.assign(members_, Outside::Lower);
+    improve(Outside::Lower);
     for (std::uint32_t place = 0; place < envelope_.size(); ++place) {
         DecisionGraph::Node& node = graph_[envelope_.node(place)];
-        node.lower = std::max(node.lower, envelope_.worth(place));
         node.choice = envelope_.choice(place);
+        if (options_.breaks_ties) {
+            costs_[envelope_.node(place)] = envelope_.worth(place);
+        }
+        node.lower = std::max(node.lower, options_.breaks_ties ? worths_[place] : envelope_.worth(place));
     }
     note_lower();
-    return keep_if_closed(kNever);
+    return keep_if_closed(Outside::Lower);
 }
 
 // Find the best policy of all that is explored.
 void PolicySearch::improve_explored() {
-    ++statistics_.iterations;
-    std::vector<PolicyNodeId> members(explored_.rbegin(), explored_.rend());
+    std::vector<PolicyNodeId> members;
+    std::copy_if(explored_.rbegin(), explored_.rend(), std::back_inserter(members),
+                 [this](PolicyNodeId node) { return graph_[node].lower != kNever; });
     envelope_.assign(members, Outside::Stopped);
-    PolicyIteration iteration(limits_);
-    iteration.improve(envelope_, options_.recursion);
-    keep_if_closed(0);
+    improve(Outside::Stopped);
+    keep_if_closed(Outside::Stopped);
 }
 
-// Keep the envelope's policy if it does not leave it but to where it is done, and is better than the one that is kept.
-// `slack`: if it is worse by no more than this.
-bool PolicySearch::keep_if_closed(double slack) {
+// Keep the envelope's policy if it does not leave it but to where it stops, and is better than the one that is kept.
+bool PolicySearch::keep_if_closed(Outside outside) {
+    const double cost = envelope_.worth_of(root_);
+    if (options_.breaks_ties) {  // its worth may be worse than the best one by as much as makes a tie
+        envelope_.set_outside(outside);
+        envelope_.restore_stops();
+        evaluation_.evaluate(envelope_, options_.recursion);
+    }
     const double worth = envelope_.worth_of(root_);
-    if (worth == kNever || !(worth < statistics_.upper + slack)) {
+    if (worth == kNever || (outside == Outside::Stopped && !is_better(worth, cost))) {
         return false;
     }
     FoundPolicy found;
@@ -216,14 +299,25 @@ bool PolicySearch::keep_if_closed(double slack) {
         }
     }
     statistics_.upper = worth;
+    statistics_.cost = options_.breaks_ties ? cost : 0;
     best_ = std::move(found);
     return true;
 }
 
+bool PolicySearch::is_better(double worth, double cost) const {
+    const double slack = options_.breaks_ties && statistics_.upper < kNever ? kTieTolerance : 0;
+    return worth < statistics_.upper - slack || (worth <= statistics_.upper + slack && cost < statistics_.cost);
+}
+
 bool PolicySearch::is_near() const {
-    const double lower = statistics_.lower * options_.unit;
-    const double upper = statistics_.upper * options_.unit;
-    return upper - lower <= options_.precision * std::max(1.0, std::abs(upper));
+    if (statistics_.upper == kNever) {
+        return false;
+    }
+    const auto are_near = [this](double lower, double upper) {
+        return upper - lower <= options_.precision * std::max(1.0, std::abs(upper));
+    };
+    return are_near(statistics_.lower * options_.unit, statistics_.upper * options_.unit) &&
+           (!options_.breaks_ties || are_near(costs_[root_], statistics_.cost));
 }
 
 void PolicySearch::note_lower() { statistics_.lower = graph_[root_].lower; }

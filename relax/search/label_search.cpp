@@ -82,7 +82,7 @@ LabelSearchResult LabelSearch::run() {
     }
     for (const LabelId goal : plans_) {
         SearchResult plan;
-        trace_steps(*valuation_.prices().front(), progression_, steps_to(goal), limits_, plan);
+        trace_steps(*valuation_.prices().front(), progression_.networks(), steps_to(goal), limits_, plan);
         if (!plan.cost) {
             result.stop = result.stop ? result.stop : plan.stop;
             result.is_all = false;

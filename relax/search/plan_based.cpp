@@ -269,7 +269,7 @@ void PlanBased::trace(SearchResult& result) {
     }
     std::reverse(steps.begin(), steps.end());
     steps.insert(steps.end(), solution_->order.begin(), solution_->order.end());
-    trace_steps(*valuation_.prices().front(), progression_, steps, limits_, result);
+    trace_steps(*valuation_.prices().front(), progression_.networks(), steps, limits_, result);
 }
 
 }  // namespace relax

@@ -17,17 +17,16 @@ void trace_plan(const PricedProblem& priced, Progression& progression, const Sea
         steps.push_back(nodes[id].step());
     }
     std::reverse(steps.begin(), steps.end());
-    trace_steps(priced, progression, steps, limits, result);
+    trace_steps(priced, progression.networks(), steps, limits, result);
 }
 
 namespace {
 
 // Walk the steps once more and keep track of which task of the decomposition tree each occurrence is. Throws Stopped.
-void walk(const PricedProblem& priced, Progression& progression, std::span<const SearchStep> steps, Limits& limits,
+void walk(const PricedProblem& priced, TaskNetworks& networks, std::span<const SearchStep> steps, Limits& limits,
           SearchResult& result) {
     const GroundProblem& problem = priced.problem;
-    TaskNetworks& networks = progression.networks();
-    NetworkId network = progression.initial_network();
+    NetworkId network = networks.initial();
     const StateTransition transition(problem);
     StateBits state = transition.initial_state();
     StateBits next(state.size());
@@ -74,11 +73,11 @@ void walk(const PricedProblem& priced, Progression& progression, std::span<const
 
 }  // namespace
 
-void trace_steps(const PricedProblem& priced, Progression& progression, std::span<const SearchStep> steps,
-                 Limits& limits, SearchResult& result) {
+void trace_steps(const PricedProblem& priced, TaskNetworks& networks, std::span<const SearchStep> steps, Limits& limits,
+                 SearchResult& result) {
     std::optional<StopReason> stop = result.stop;  // of the search, which comes first
     try {
-        walk(priced, progression, steps, limits, result);
+        walk(priced, networks, steps, limits, result);
         return;
     } catch (const Stopped& stopped) {
         stop = stop ? stop : stopped.reason;

@@ -729,6 +729,10 @@ class PolicySearchOptions:
     def unit(self) -> float: ...
     @unit.setter
     def unit(self, arg: float, /) -> None: ...
+    @property
+    def breaks_ties(self) -> bool: ...
+    @breaks_ties.setter
+    def breaks_ties(self, arg: bool, /) -> None: ...
 
 class PolicyStatistics:
     @property
@@ -747,6 +751,8 @@ class PolicyStatistics:
     def lower(self) -> float: ...
     @property
     def upper(self) -> float: ...
+    @property
+    def cost(self) -> float: ...
 
 class PolicySearchResult:
     @property
@@ -794,3 +800,72 @@ class PolicySpace:
     def tasks(self, node: int) -> list[int]: ...
     def ordering(self, node: int) -> list[tuple[int, int]]: ...
     def decisions(self, node: int) -> list[tuple[int, int | None, list[tuple[int, int | None, list[int]]]]]: ...
+
+class PolicyEnd(enum.Enum):
+    GoesOn = 0
+
+    Done = 1
+
+    NothingLeft = 2
+
+    GivesUp = 3
+
+class PolicyRun:
+    def __init__(
+        self,
+        priced: PricedProblem,
+        options: PolicySearchOptions,
+        probabilities: Sequence[float],
+        free_actions: Sequence[bool],
+        seen_actions: Sequence[bool],
+        seen_parts: Sequence[bool],
+        only_done_runs_pay: bool,
+    ) -> None: ...
+    def take_amounts(
+        self,
+        actions: Sequence[float],
+        parts: Sequence[float],
+        costs: Sequence[float],
+        part_costs: Sequence[float],
+        stop: float,
+        unit: float,
+        heuristic: str,
+    ) -> None: ...
+    def take_laws(
+        self,
+        laws: CostLaws,
+        means: PricedProblem,
+        units_per_step: float,
+        of_left: Sequence[float],
+        gain: float,
+        beyond: float,
+        slope: float,
+        failure: float | None,
+        heuristic: str,
+    ) -> None: ...
+    def run(
+        self,
+        left: int = 0,
+        seconds: float | None = None,
+        memory_bytes: int | None = None,
+        steps: int | None = None,
+        progress: object | None = None,
+    ) -> PolicySearchResult: ...
+    @property
+    def ends(self) -> list[PolicyEnd]: ...
+    @property
+    def first(self) -> list[int]: ...
+    @property
+    def probabilities(self) -> list[float]: ...
+    @property
+    def actions(self) -> list[int | None]: ...
+    @property
+    def successors(self) -> list[int]: ...
+    def due_parts(self, branch: int) -> list[int]: ...
+    def step(self, node: int) -> tuple[int, int | None]: ...
+    def facts(self, node: int) -> list[int]: ...
+    def known(self, node: int) -> list[int]: ...
+    def tasks(self, node: int) -> list[int]: ...
+    def ordering(self, node: int) -> list[tuple[int, int]]: ...
+    def left(self, node: int) -> int | None: ...
+    def plan(self, branches: Sequence[int]) -> SearchResult: ...

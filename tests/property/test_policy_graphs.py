@@ -60,3 +60,13 @@ def test_best_policy(agent: Agent, graph: Graph, stop: int | None, data: st.Data
     for node, choice in policy:
         chosen[node] = choice
     assert agent.worth(evaluate(graph, chosen, agent, stop)[0]) == pytest.approx(worths[0], rel=1e-11, abs=1e-11)
+
+
+def test_loops_that_refer_to_each_other() -> None:
+    """A node with two ways that lead back to it for nothing is a dead end, though each way counts on the other."""
+    certain = Fraction(1)
+    loop = Graph((False,) * 3, ((((1, certain, 0),), ((2, certain, 0),)), (((0, certain, 0),),), (((0, certain, 0),),)))
+    options = _relax.PolicySearchOptions()
+    result, policy = _relax.solve_decision_graph(core_nodes(loop, Agent("neutral"), None, [0.0] * 3), 0, options)
+    assert result.statistics.lower == math.inf
+    assert not policy

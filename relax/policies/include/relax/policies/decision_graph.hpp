@@ -43,7 +43,8 @@ public:
         std::uint32_t count;  // ... so many; none before it is expanded
         DecisionId choice;    // the best one by the lower worths
         float depth;  // of the policy below, as far as it is explored: among equally good ones the least is taken
-        std::uint32_t visited;  // the latest round that came here
+        std::uint32_t visited;   // the latest round that came here
+        std::uint32_t gathered;  // the latest envelope that has it
         bool is_done;
         bool is_expanded;
     };
@@ -53,9 +54,9 @@ public:
     Node& operator[](PolicyNodeId node) { return nodes_[node]; }
     const Node& operator[](PolicyNodeId node) const { return nodes_[node]; }
 
-    PolicyNodeId add_done(double worth) { return add({worth, worth, 0, 0, kStop, 0, 0, true, true}); }
+    PolicyNodeId add_done(double worth) { return add({worth, worth, 0, 0, kStop, 0, 0, 0, true, true}); }
     PolicyNodeId add_open(double lower, double stop, float depth) {
-        return add({lower < stop ? lower : stop, stop, 0, 0, kStop, depth, 0, false, false});
+        return add({lower < stop ? lower : stop, stop, 0, 0, kStop, depth, 0, 0, false, false});
     }
 
     // Give an open node its decisions.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "relax/base/flat_array.hpp"
+#include "relax/base/segmented_array.hpp"
 #include "relax/policies/decision_graph.hpp"
 #include "relax/policies/recursion.hpp"
 
@@ -18,6 +19,7 @@ enum class Outside : std::uint8_t {
     Lower,    // their lower worths, so that what comes of it is a lower worth, too
     Stopped,  // what it is worth to stop there, so that a policy of the envelope is one of the whole graph
     Reached,  // nothing at all (in the unit of a logarithm, -infinity), but kNever where nothing can be reached
+    Given,    // numbers that are given by node, or else 0
 };
 
 // Some expanded nodes, and a policy on them with what its decisions make them worth. Members have places: their numbers
@@ -29,9 +31,13 @@ public:
     // Take other members, none of them done, with their choices in the graph.
     void assign(std::span<const PolicyNodeId> members, Outside outside);
     // The same members, as if stopping anywhere were worth so much.
-    void set_outside(Outside outside) { outside_ = outside; }
+    void set_outside(Outside outside, const SegmentedArray<double>* given = nullptr) {
+        outside_ = outside;
+        given_ = given;
+    }
     Outside outside() const { return outside_; }
     void set_stops(double worth) { stops_.assign(size(), worth); }
+    void set_stop(std::uint32_t place, double worth) { stops_[place] = worth; }
     void restore_stops();
 
     const DecisionGraph& graph() const { return graph_; }
@@ -56,8 +62,10 @@ public:
                 return graph_[node].lower;
             case Outside::Stopped:
                 return graph_[node].stop;
-            default:
+            case Outside::Reached:
                 return graph_[node].lower == kNever ? kNever : -kNever;
+            default:
+                return given_ == nullptr ? 0 : (*given_)[node];
         }
     }
     // Of a decision, and of stopping.
@@ -94,6 +102,7 @@ private:
 
     const DecisionGraph& graph_;
     Outside outside_ = Outside::Lower;
+    const SegmentedArray<double>* given_ = nullptr;
     FlatArray<std::uint32_t> places_;  // by node
     std::vector<PolicyNodeId> members_;
     std::vector<double> worths_;

@@ -1,6 +1,8 @@
 #ifndef RELAX_POLICIES_POLICY_ITERATION_HPP
 #define RELAX_POLICIES_POLICY_ITERATION_HPP
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "relax/base/limits.hpp"
@@ -47,6 +49,14 @@ public:
 
     // Find the envelope's best policy and worths, from its choices. Throws Stopped, and leaves the envelope undefined.
     void improve(Envelope& envelope, Recursion kind);
+    // After that, by an expected worth: find the policy of least expected cost of those that are worth as much, and
+    // what each node costs by it. Runs end, free of cost, where stopping is worth as much as anything else. Throws
+    // Stopped.
+    //
+    // Only decisions d with T_d W = W (to `kTieTolerance`) are left, and from a proper policy that takes them all
+    // others that are found are proper, too, as said above. A proper policy pi that takes them has W = T_pi W, and is
+    // worth W.
+    void break_ties(Envelope& envelope, Recursion kind, const SegmentedArray<double>* outside);
 
     // Whether some node has a proper policy and no finite one; or perhaps has none, for all that floating point can
     // tell.
@@ -68,6 +78,9 @@ private:
 
 // How much of itself, or of 1 if that is more, a worth must fall by to count.
 inline constexpr double kWorthTolerance = 1e-13;
+
+// Decisions are as good as the best one if they are worse by no more than this part of the worth, or of 1.
+inline constexpr double kTieTolerance = 1e-12;
 
 inline double slack_of(double worth) { return kWorthTolerance * std::max(1.0, std::abs(worth)); }
 

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "relax/base/limits.hpp"
+#include "relax/base/segmented_array.hpp"
 #include "relax/policies/decision_graph.hpp"
 #include "relax/policies/decision_source.hpp"
 #include "relax/policies/envelope.hpp"
@@ -17,8 +19,9 @@ namespace relax {
 
 struct PolicySearchOptions {
     Recursion recursion = Recursion::Expected;
-    double precision = 1e-6;  // of the worth: upper and lower worth may differ by so much of the larger, or of 1
-    double unit = 1;          // by which worths are multiplied to be values, for the precision
+    double precision = 1e-6;   // of the worth: upper and lower worth may differ by so much of the larger, or of 1
+    double unit = 1;           // by which worths are multiplied to be values, for the precision
+    bool breaks_ties = false;  // of the best policies find that of least expected cost; worths are expected ones
 };
 
 struct PolicyStatistics {
@@ -30,6 +33,7 @@ struct PolicyStatistics {
     std::size_t iterations = 0;  // improvements of policies
     double lower = 0;            // the worth of every policy is at least this ...
     double upper = kNever;       // ... and that of the best one found is at most this
+    double cost = 0;             // where ties are broken: the expected cost of the best one found
 };
 
 // A policy: its nodes, of which the first is the root, and what it chooses at each of them.
@@ -57,16 +61,23 @@ struct PolicySearchResult {
 // up does not lead to V*. So, once a round has met no open node, the envelope's best policy is found by policy
 // iteration, nodes outside being worth L; V* restricted to the envelope is at least that. If that policy stays inside,
 // it is worth what it was found to be, and so is the best of all. Nodes from which nothing can be reached become worth
-// kNever.
+// kNever. If it leaves the envelope, the nodes that it leads to are met in the next round: an open one, or they are
+// added to the envelope. So it grows until one or the other comes; else two loops could refer to each other for ever.
 //
 // From time to time the best policy of all that is explored is found, open nodes being nodes to stop at: an upper
 // worth. When the two are near enough, or a limit is reached, that is the result.
+//
+// Where ties are broken, nodes have a lower expected cost C, too, and take the decision that costs least by it of those
+// that are best by L. C is a bound where L is exact: then a decision of the best policy is one of them, and L is exact
+// at its successors, so that the least C over them is a bound, too. So C is found anew whenever L rises, and counts in
+// the end, when the best policy stays in the envelope and is worth L.
 class PolicySearch {
 public:
     // `statistics` is kept up to date for whoever watches from `limits.poll`.
     PolicySearch(DecisionSource& source, const PolicySearchOptions& options, Limits& limits,
                  PolicyStatistics& statistics);
 
+    // From the source's root of the moment. What was explored by earlier runs is used.
     PolicySearchResult run();
 
     const DecisionGraph& graph() const { return graph_; }
@@ -82,9 +93,14 @@ private:
     void enter(PolicyNodeId node, bool& has_met_open);
     void expand(PolicyNodeId node);
     bool back_up(PolicyNodeId node);
+    bool back_up_cost(PolicyNodeId node, bool has_risen);
+    void gather(std::span<const PolicyNodeId> nodes);
     bool improve_envelope();
+    void improve(Outside outside);
     void improve_explored();
-    bool keep_if_closed(double slack);
+    void note_costs();
+    bool keep_if_closed(Outside outside);
+    bool is_better(double worth, double cost) const;
     bool is_near() const;
     void note_lower();
 
@@ -96,14 +112,21 @@ private:
     PolicyNodeId root_;
     Envelope envelope_;
     PolicyIteration iteration_;
+    PolicyEvaluation evaluation_;
+    SegmentedArray<double> costs_;  // by node: C, where ties are broken
     std::vector<Frame> frames_;
     std::vector<PolicyNodeId> order_;     // nodes of the round, each after those that it leads to but for loops
+    std::vector<PolicyNodeId> members_;   // of the envelope: nodes of all rounds since an open node was met
     std::vector<PolicyNodeId> explored_;  // expanded nodes
     std::vector<DraftDecision> drafts_;
+    std::vector<double> worths_;  // by place of the envelope, while ties are broken
     std::uint32_t round_ = 0;
-    std::size_t plunges_left_ = 0;  // of the round: nodes that may be expanded right after their parents
-    bool has_changed_ = false;      // in the round: a choice
-    std::size_t next_upper_ = 256;  // when so many nodes are expanded
+    std::uint32_t gathering_ = 1;         // the number of the envelope
+    std::uint32_t quiet_rounds_ = 0;      // since an open node was met
+    std::uint32_t quiet_iterations_ = 0;  // likewise
+    std::size_t plunges_left_ = 0;        // of the round: nodes that may be expanded right after their parents
+    bool has_changed_ = false;            // in the round: a choice
+    std::size_t next_upper_ = 256;        // when so many nodes are expanded
     std::optional<FoundPolicy> best_;
 };
 

@@ -13,8 +13,8 @@ namespace relax {
 
 // Write the plan that the steps lead to from the initial state and network, its cost and its decomposition tree. Where
 // a limit is reached before that is done, the result has no plan, and says what stopped it.
-void trace_steps(const PricedProblem& priced, Progression& progression, std::span<const SearchStep> steps,
-                 Limits& limits, SearchResult& result);
+void trace_steps(const PricedProblem& priced, TaskNetworks& networks, std::span<const SearchStep> steps, Limits& limits,
+                 SearchResult& result);
 
 // The same for the steps that lead to a node.
 void trace_plan(const PricedProblem& priced, Progression& progression, const SearchSpace& nodes, NodeId goal,

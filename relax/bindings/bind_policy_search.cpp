@@ -1,0 +1,251 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "id_caster.hpp"
+#include "python_limits.hpp"
+#include "relax/base/bits.hpp"
+#include "relax/policies/network_source.hpp"
+#include "relax/policies/policy_trace.hpp"
+#include "relax/policies/spending_source.hpp"
+#include "relax/progression/relevant_facts.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+using Amounts = std::vector<double>;
+using Seconds = std::optional<double>;
+using Bytes = std::optional<std::size_t>;
+using Steps = std::optional<std::uint64_t>;
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+relax::HeuristicInfo admissible(std::string_view name) {
+    relax::HeuristicInfo heuristic = relax::heuristic_named(name);
+    if (!heuristic.is_admissible) {
+        throw std::invalid_argument("the heuristic must be admissible");
+    }
+    return heuristic;
+}
+
+// A policy search on a ground problem: its source, what it has explored, and the policy that it has found last. A run
+// may be followed by others from another amount.
+class PolicyRun {
+public:
+    PolicyRun(const relax::PricedProblem& priced, const relax::PolicySearchOptions& options, Amounts probabilities,
+              const std::vector<bool>& free_actions, const relax::SeenCosts& seen, bool only_done_runs_pay)
+        : priced_(priced), options_(options), probabilities_(std::move(probabilities)) {
+        const auto& problem = priced.problem;
+        if (probabilities_.size() != problem.action_count() || free_actions.size() != problem.action_count() ||
+            (!seen.actions.empty() && seen.actions.size() != problem.action_count()) ||
+            (!seen.parts.empty() && seen.parts.size() != problem.cost_part_count())) {
+            throw std::invalid_argument("there must be one entry for each action and for each cost part");
+        }
+        progression_.emplace(problem, free_actions, seen, relax::PolicyOptions{{}, only_done_runs_pay}, limits_);
+    }
+
+    void take_amounts(const Amounts& actions, const Amounts& parts, const Amounts& costs, const Amounts& part_costs,
+                      double stop, double unit, std::string_view heuristic) {
+        make_ = [this, amounts = relax::StepAmounts{actions, parts}, expected = relax::StepAmounts{costs, part_costs},
+                 worths = relax::NetworkSource::Worths{options_.recursion, stop, unit},
+                 info = admissible(heuristic)]() -> std::unique_ptr<relax::PlanningSource> {
+            return std::make_unique<relax::NetworkSource>(*progression_, probabilities_, amounts, expected, worths,
+                                                          priced_, info, limits_);
+        };
+    }
+
+    void take_laws(const relax::CostLaws& laws, const relax::PricedProblem& means, double units_per_step,
+                   const Amounts& of_left, double gain, double beyond, double slope, std::optional<double> failure,
+                   std::string_view heuristic) {
+        using Worths = relax::SpendingSource::Worths;
+        using GivingUp = relax::SpendingSource::GivingUp;
+        if (of_left.empty()) {
+            throw std::invalid_argument("there must be a disutility where nothing is left");
+        }
+        Worths worths{{of_left, gain, beyond, slope}, GivingUp::No, 0};
+        if (failure) {
+            worths.giving_up = *failure == relax::kNever ? GivingUp::AsBadAsLate : GivingUp::AtACost;
+            worths.failure = *failure;
+        }
+        make_ = [this, &laws, &means, units_per_step, worths,
+                 info = admissible(heuristic)]() -> std::unique_ptr<relax::PlanningSource> {
+            auto source = std::make_unique<relax::SpendingSource>(*progression_, probabilities_, laws, worths, priced_,
+                                                                  means, units_per_step, info, limits_);
+            spending_ = source.get();
+            return source;
+        };
+    }
+
+    relax::PolicySearchResult run(relax::AmountLeft left, Seconds seconds, Bytes bytes, Steps steps,
+                                  const nb::object& progress) {
+        if (!make_) {
+            throw std::invalid_argument("there must be amounts, or laws");
+        }
+        std::function<void()> watch;
+        if (!progress.is_none()) {
+            watch = [&] { progress(statistics_); };
+        }
+        limits_ = python_limits(seconds, bytes, steps, std::move(watch));
+        relax::PolicySearchResult result;
+        {
+            const nb::gil_scoped_release no_gil;
+            result.stop = relax::run_within_limits([&]() -> std::optional<relax::StopReason> {
+                if (!source_) {
+                    source_ = make_();
+                    search_.emplace(*source_, options_, limits_, statistics_);
+                }
+                return std::nullopt;
+            });
+            if (search_) {
+                if (spending_ != nullptr) {
+                    spending_->begin_with(left);
+                }
+                result = search_->run();
+            }
+        }
+        limits_ = relax::Limits();  // what is asked from now on is worked out whatever they were
+        trace_.reset();
+        if (result.policy) {
+            trace_ = relax::trace_policy(*source_, search_->graph(), *result.policy, limits_);
+        }
+        return result;
+    }
+
+    const relax::PolicyTrace& trace() const {
+        if (!trace_) {
+            throw std::out_of_range("there is no policy");
+        }
+        return *trace_;
+    }
+    std::vector<relax::FactId> facts(std::uint32_t node) {
+        std::vector<relax::FactId> facts;
+        relax::for_each_bit(progression_->states()[source_->nodes().state(place(node).pair)],
+                            [&](std::size_t fact) { facts.emplace_back(fact); });
+        return facts;
+    }
+    // Those that matter from there on, true or false.
+    std::vector<relax::FactId> known(std::uint32_t node) {
+        if (!relevant_) {
+            relevant_.emplace(priced_.problem, limits_);
+        }
+        std::vector<relax::FactId> facts;
+        const auto row = relevant_->of(progression_->networks(), source_->nodes().network(place(node).pair));
+        relax::for_each_bit(row, [&](std::size_t fact) { facts.emplace_back(fact); });
+        return facts;
+    }
+    std::vector<relax::TaskId> tasks(std::uint32_t node) { return ordered(node).tasks; }
+    Pairs ordering(std::uint32_t node) {
+        const relax::OrderedTasks& found = ordered(node);
+        Pairs pairs;
+        for (std::uint32_t later = 0; later < found.tasks.size(); ++later) {
+            relax::for_each_bit(found.row(later), [&](std::size_t earlier) {
+                pairs.emplace_back(static_cast<std::uint32_t>(earlier), later);
+            });
+        }
+        return pairs;
+    }
+    // None where it is used up.
+    std::optional<relax::AmountLeft> left(std::uint32_t node) {
+        const relax::AmountLeft left = place(node).left;
+        return left == relax::kSpent ? std::nullopt : std::optional(left);
+    }
+    std::pair<std::uint32_t, std::optional<relax::MethodId>> step(std::uint32_t node) const {
+        const relax::SearchStep step = trace().steps.at(node);
+        return {step.occurrence, step.method};
+    }
+    std::vector<relax::CostPartId> due_parts(std::uint32_t branch) const {
+        if (branch >= trace().successors.size()) {
+            throw std::out_of_range("index out of range");
+        }
+        const auto parts = trace().due_parts[branch];
+        return {parts.begin(), parts.end()};
+    }
+    relax::SearchResult plan(const std::vector<std::uint32_t>& branches) {
+        std::uint32_t node = 0;
+        for (const std::uint32_t branch : branches) {
+            if (branch < trace().first[node] || branch >= trace().first[node + 1]) {
+                throw std::out_of_range("a branch must be one of the node that the ones before lead to");
+            }
+            node = trace().successors[branch];
+        }
+        relax::SearchResult result;
+        relax::trace_run(priced_, *source_, trace(), branches, limits_, result);
+        return result;
+    }
+
+private:
+    const relax::NetworkNodes::Node& place(std::uint32_t node) const {
+        return source_->nodes()[trace().nodes.at(node)];
+    }
+    const relax::OrderedTasks& ordered(std::uint32_t node) {
+        return progression_->ordered_tasks(source_->nodes().network(place(node).pair));
+    }
+
+    const relax::PricedProblem& priced_;
+    relax::PolicySearchOptions options_;
+    Amounts probabilities_;
+    relax::Limits limits_;
+    relax::PolicyStatistics statistics_;
+    std::optional<relax::PolicyProgression> progression_;
+    std::function<std::unique_ptr<relax::PlanningSource>()> make_;
+    std::unique_ptr<relax::PlanningSource> source_;
+    relax::SpendingSource* spending_ = nullptr;
+    std::optional<relax::PolicySearch> search_;
+    std::optional<relax::PolicyTrace> trace_;
+    std::optional<relax::RelevantFacts> relevant_;
+};
+
+}  // namespace
+
+void bind_policy_search(nb::module_& module) {
+    nb::enum_<relax::PolicyEnd>(module, "PolicyEnd")
+        .value("GoesOn", relax::PolicyEnd::GoesOn)
+        .value("Done", relax::PolicyEnd::Done)
+        .value("NothingLeft", relax::PolicyEnd::NothingLeft)
+        .value("GivesUp", relax::PolicyEnd::GivesUp);
+
+    nb::class_<PolicyRun>(module, "PolicyRun")
+        .def(
+            "__init__",
+            [](PolicyRun* self, const relax::PricedProblem& priced, const relax::PolicySearchOptions& options,
+               Amounts probabilities, const std::vector<bool>& free_actions, std::vector<bool> seen_actions,
+               std::vector<bool> seen_parts, bool only_done_runs_pay) {
+                new (self) PolicyRun(priced, options, std::move(probabilities), free_actions,
+                                     {std::move(seen_actions), std::move(seen_parts)}, only_done_runs_pay);
+            },
+            "priced"_a, "options"_a, "probabilities"_a, "free_actions"_a, "seen_actions"_a, "seen_parts"_a,
+            "only_done_runs_pay"_a, nb::keep_alive<1, 2>())
+        .def("take_amounts", &PolicyRun::take_amounts, "actions"_a, "parts"_a, "costs"_a, "part_costs"_a, "stop"_a,
+             "unit"_a, "heuristic"_a)
+        .def("take_laws", &PolicyRun::take_laws, "laws"_a, "means"_a, "units_per_step"_a, "of_left"_a, "gain"_a,
+             "beyond"_a, "slope"_a, "failure"_a.none(), "heuristic"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+        .def("run", &PolicyRun::run, "left"_a = 0, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(),
+             "steps"_a = nb::none(), "progress"_a = nb::none())
+        .def_prop_ro("ends", [](const PolicyRun& self) { return self.trace().ends; })
+        .def_prop_ro("first", [](const PolicyRun& self) { return self.trace().first; })
+        .def_prop_ro("probabilities", [](const PolicyRun& self) { return self.trace().probabilities; })
+        .def_prop_ro("actions", [](const PolicyRun& self) { return self.trace().actions; })
+        .def_prop_ro("successors", [](const PolicyRun& self) { return self.trace().successors; })
+        .def("due_parts", &PolicyRun::due_parts, "branch"_a)
+        .def("step", &PolicyRun::step, "node"_a)
+        .def("facts", &PolicyRun::facts, "node"_a)
+        .def("known", &PolicyRun::known, "node"_a)
+        .def("tasks", &PolicyRun::tasks, "node"_a)
+        .def("ordering", &PolicyRun::ordering, "node"_a)
+        .def("left", &PolicyRun::left, "node"_a)
+        .def("plan", &PolicyRun::plan, "branches"_a);
+}

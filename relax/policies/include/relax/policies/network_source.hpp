@@ -1,0 +1,107 @@
+#ifndef RELAX_POLICIES_NETWORK_SOURCE_HPP
+#define RELAX_POLICIES_NETWORK_SOURCE_HPP
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "relax/analysis/priced_problem.hpp"
+#include "relax/base/limits.hpp"
+#include "relax/policies/decision_source.hpp"
+#include "relax/policies/network_nodes.hpp"
+#include "relax/policies/recursion.hpp"
+#include "relax/progression/policy_progression.hpp"
+
+namespace relax {
+
+// An amount for each action and each part of its cost.
+struct StepAmounts {
+    std::vector<double> actions;  // by ActionId
+    std::vector<double> parts;    // by CostPartId
+
+    // Of an execution; 0 where nothing is executed.
+    double of(const PolicyOutcome& outcome) const;
+};
+
+// An outcome of a decision, and the branch of the graph that it is: of what remembers an amount spent, the same outcome
+// has a branch for each amount.
+struct TracedBranch {
+    double probability;
+    std::optional<ActionId> action;
+    std::span<const CostPartId> due_parts;
+    PolicyNodeId successor;
+};
+
+// A source whose nodes are states and networks.
+class PlanningSource : public DecisionSource {
+public:
+    // `probabilities`: by ActionId, of outcome actions; 1 for others.
+    PlanningSource(PolicyProgression& progression, std::vector<double> probabilities)
+        : progression_(progression), nodes_(progression), probabilities_(std::move(probabilities)) {}
+
+    const NetworkNodes& nodes() const { return nodes_; }
+    PolicyProgression& progression() { return progression_; }
+
+    // What a decision of an expanded node is, and what may come of it; valid until the next call. Throws Stopped.
+    struct Traced {
+        SearchStep step;
+        std::span<const TracedBranch> branches;
+    };
+    Traced trace(PolicyNodeId node, std::uint32_t decision);
+
+protected:
+    // Call `put(probability, outcome, successor)` for each branch of a decision, always in the same order.
+    virtual void list_branches(AmountLeft left, const PolicyDecision& decision,
+                               std::vector<TracedBranch>& branches) = 0;
+
+    double probability(const PolicyOutcome& outcome) const {
+        return outcome.action ? probabilities_[*outcome.action] : 1.0;
+    }
+    const std::vector<PolicyDecision>& decisions(PolicyNodeId node);
+
+    PolicyProgression& progression_;
+    NetworkNodes nodes_;
+
+private:
+    std::vector<double> probabilities_;
+    std::vector<PolicyDecision> decisions_;
+    std::vector<TracedBranch> branches_;
+};
+
+// Agents who do not mind what they have spent: neutral and exponential ones, and those that want to be done.
+class NetworkSource : public PlanningSource {
+public:
+    struct Worths {
+        Recursion recursion = Recursion::Expected;
+        double stop = kNever;  // what it is worth to give up
+        double unit = 1;       // the worth of a unit of the prices for bounds; 0: they tell dead ends alone
+    };
+
+    // `amounts`: what is added to the constant of a decision, or to the weight of an outcome; `costs`: what is
+    // expected. Throws Stopped.
+    NetworkSource(PolicyProgression& progression, std::vector<double> probabilities, const StepAmounts& amounts,
+                  const StepAmounts& costs, const Worths& worths, const PricedProblem& priced,
+                  const HeuristicInfo& heuristic, Limits& limits);
+
+    PolicyNodeId add_root(DecisionGraph& graph) override;
+    void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& decisions) override;
+    double bound(PolicyNodeId node, double known) override;
+
+private:
+    void list_branches(AmountLeft left, const PolicyDecision& decision, std::vector<TracedBranch>& branches) override;
+    PolicyNodeId add(DecisionGraph& graph, StateId state, NetworkId network);
+    double worth_of(Cost bound) const {
+        return bound >= kInfinity ? kNever : worths_.unit * static_cast<double>(bound);
+    }
+
+    StepAmounts amounts_;
+    StepAmounts costs_;
+    Worths worths_;
+    PairBounds bounds_;
+};
+
+}  // namespace relax
+
+#endif

@@ -1,0 +1,97 @@
+#include "relax/policies/network_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "relax/base/cost.hpp"
+
+namespace relax {
+
+double StepAmounts::of(const PolicyOutcome& outcome) const {
+    double sum = outcome.action ? actions[*outcome.action] : 0;
+    for (const CostPartId part : outcome.due_parts) {
+        sum += parts[part];
+    }
+    return sum;
+}
+
+const std::vector<PolicyDecision>& PlanningSource::decisions(PolicyNodeId node) {
+    const PairId pair = nodes_[node].pair;
+    progression_.decisions(nodes_.state(pair), nodes_.network(pair), decisions_);
+    return decisions_;
+}
+
+PlanningSource::Traced PlanningSource::trace(PolicyNodeId node, std::uint32_t decision) {
+    const PolicyDecision& found = decisions(node)[decision];
+    branches_.clear();
+    list_branches(nodes_[node].left, found, branches_);
+    return {found.step, branches_};
+}
+
+NetworkSource::NetworkSource(PolicyProgression& progression, std::vector<double> probabilities,
+                             const StepAmounts& amounts, const StepAmounts& costs, const Worths& worths,
+                             const PricedProblem& priced, const HeuristicInfo& heuristic, Limits& limits)
+    : PlanningSource(progression, std::move(probabilities)),
+      amounts_(amounts),
+      costs_(costs),
+      worths_(worths),
+      bounds_(priced, heuristic, progression, nodes_, limits) {}
+
+PolicyNodeId NetworkSource::add_root(DecisionGraph& graph) {
+    const StateId state = progression_.initial_state();
+    return add(graph, state, progression_.initial_network());
+}
+
+PolicyNodeId NetworkSource::add(DecisionGraph& graph, StateId state, NetworkId network) {
+    const PairId pair = nodes_.pair_of(state, network);
+    const PolicyNodeId node = nodes_.find(pair, 0);
+    if (!nodes_.has(node)) {
+        if (progression_.is_done(network)) {
+            graph.add_done(0);
+        } else {
+            graph.add_open(worth_of(bounds_.known(pair)), worths_.stop,
+                           static_cast<float>(progression_.networks().size(network)));
+        }
+        nodes_.add(pair, 0);
+    }
+    return node;
+}
+
+void NetworkSource::decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& drafts) {
+    const bool is_expected = worths_.recursion == Recursion::Expected;
+    const auto& found = decisions(node);
+    drafts.resize(found.size());
+    for (std::size_t at = 0; at < found.size(); ++at) {
+        DraftDecision& draft = drafts[at];
+        draft.constant = draft.cost = 0;
+        draft.successors.clear();
+        draft.weights.clear();
+        for (const PolicyOutcome& outcome : found[at].outcomes) {
+            const double p = probability(outcome);
+            if (p > 0) {
+                const double amount = amounts_.of(outcome);
+                draft.constant += is_expected ? p * amount : 0;
+                draft.cost += p * costs_.of(outcome);
+                draft.weights.push_back(is_expected ? p : std::log(p) + amount);
+                draft.successors.push_back(add(graph, outcome.state, outcome.network));
+            }
+        }
+    }
+}
+
+void NetworkSource::list_branches(AmountLeft /*left*/, const PolicyDecision& decision,
+                                  std::vector<TracedBranch>& branches) {
+    for (const PolicyOutcome& outcome : decision.outcomes) {
+        if (const double p = probability(outcome); p > 0) {
+            branches.push_back(
+                {p, outcome.action, outcome.due_parts, nodes_.find(nodes_.pair_of(outcome.state, outcome.network), 0)});
+        }
+    }
+}
+
+double NetworkSource::bound(PolicyNodeId node, double known) {
+    return std::max(known, worth_of(bounds_.closer(nodes_[node].pair)));
+}
+
+}  // namespace relax

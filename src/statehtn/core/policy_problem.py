@@ -1,0 +1,105 @@
+"""What a search for a policy needs to know of a ground problem."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import statehtn._relax as _relax
+from statehtn.core.grounding import Grounding
+from statehtn.core.pricing import Pricing, RiskCost, price
+from statehtn.core.scale import Scale
+from statehtn.limits import Limits
+from statehtn.model import CostLaw
+from statehtn.risk.neutral import Neutral
+
+
+@dataclass(frozen=True)
+class PolicyProblem:
+    """A ground problem whose policies are searched for.
+
+    Args:
+        grounding: the ground problem; its methods are whole.
+        heuristic: the name of an admissible heuristic in `HEURISTICS`.
+        limits: they hold for all that is worked out.
+    """
+
+    grounding: Grounding
+    heuristic: str
+    limits: Limits
+
+    @cached_property
+    def probabilities(self) -> list[float]:
+        """By ground action: the probability of it as an outcome; 1 for an action with one outcome."""
+        return [float(probability) for probability in self.grounding.probabilities]
+
+    @cached_property
+    def free_actions(self) -> list[bool]:
+        """By ground action: whether it certainly costs nothing."""
+        grounding = self.grounding
+        free_parts = [law.most == 0 for law in grounding.part_laws]
+        return [
+            law.most == 0 and all(free_parts[part] for part in range(*grounding.handle.cost_parts(action)))
+            for action, law in enumerate(grounding.laws)
+        ]
+
+    @cached_property
+    def means(self) -> Prices:
+        """The problem at its expected costs."""
+        return self.priced(Neutral())
+
+    def priced(self, pricing: Pricing) -> Prices:
+        """Return the problem at prices that add up."""
+        found = price(self.grounding, pricing, self.limits)
+        scale = Scale.first(found.bounds())
+        return Prices(found.on(scale).handle, 2.0**-scale.exponent, _costs(found.actions), _costs(found.parts))
+
+    def run(
+        self,
+        options: _relax.PolicySearchOptions,
+        handle: _relax.PricedProblem,
+        *,
+        only_done_runs_pay: bool,
+        sees_costs: bool = False,
+    ) -> _relax.PolicyRun:
+        """Return a run of the search in the core.
+
+        Args:
+            options: what it is asked for.
+            handle: the problem at prices by which nodes are bounded.
+            only_done_runs_pay: whether it does not matter what a run has cost that is not done.
+            sees_costs: whether what comes next may depend on what actions have cost.
+        """
+        actions, parts = (
+            ([_is_uncertain(law) for law in laws] if sees_costs else [])
+            for laws in (self.grounding.laws, self.grounding.part_laws)
+        )
+        return _relax.PolicyRun(
+            handle, options, self.probabilities, self.free_actions, actions, parts, only_done_runs_pay
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Prices:
+    """Prices in the domain's unit.
+
+    Args:
+        handle: the ground problem at these prices in the core, in whole units.
+        unit: one of these in the domain's unit.
+        actions: by ground action.
+        parts: by part of its cost.
+    """
+
+    handle: _relax.PricedProblem
+    unit: float
+    actions: Sequence[float]
+    parts: Sequence[float]
+
+
+def _costs(prices: Iterable[RiskCost]) -> list[float]:
+    return [price.cost for price in prices]
+
+
+def _is_uncertain(law: CostLaw) -> bool:
+    return law.least != law.most

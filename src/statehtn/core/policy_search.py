@@ -1,0 +1,135 @@
+"""Search for the best policy by an objective, in the compiled core."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from statehtn.core.grounding import Grounding
+from statehtn.core.label_run import PRECISION
+from statehtn.core.policy_hopeless import hopeless
+from statehtn.core.policy_outcome import PolicyOutcome
+from statehtn.core.policy_prices import PricedPolicies, SuccessPolicies, most_success
+from statehtn.core.policy_problem import PolicyProblem
+from statehtn.core.policy_run import PolicyRun, Watch
+from statehtn.core.policy_spending import DISUTILITIES, SpendingPolicies
+from statehtn.core.progress import SearchProgress
+from statehtn.errors import UnsupportedError, UsageError
+from statehtn.limits import SECONDS_TO_READ, Limits
+from statehtn.model.status import Status
+from statehtn.risk import Deadline, Exponential, MeanDeviation, MeanVariance, Neutral, Objective, Quantile
+from statehtn.risk.success import Success
+
+HEURISTIC = "lmcut"
+"""The heuristic that is taken where none is named."""
+
+
+def search_policy(
+    grounding: Grounding,
+    objective: Objective | Success,
+    *,
+    failure_cost: float | None = None,
+    adaptive: bool = False,
+    precision: float = PRECISION,
+    heuristic: str = HEURISTIC,
+    limits: Limits = Limits(),
+    progress: Callable[[SearchProgress], None] | None = None,
+) -> PolicyOutcome:
+    """Search for the policy of least value.
+
+    Args:
+        grounding: the ground problem and its cost laws; methods are not parted (`split_methods=False`).
+        objective: what is minimised; `Success` is maximised.
+        failure_cost: what the agent pays if it gives up, on top of what it has spent; infinite for deadlines and
+            quantiles only. None: only policies that are done with probability 1 count.
+        adaptive: whether the problem may have no action with several outcomes.
+        precision: how much of its value, or of 1 if that is more, a policy that is called optimal may be worse than the
+            best.
+        heuristic: the name of an admissible heuristic in `HEURISTICS`.
+        limits: when to stop; Ctrl-C stops, too.
+        progress: called about every 50 ms on the calling thread.
+
+    Raises:
+        UnsupportedError: the objective or the problem has no policies; the message says why.
+        UsageError: the failure cost is out of its range.
+        InputError: a cost has no finite price for this agent; the message names the action.
+        LimitReached: a limit was reached before the search began.
+    """
+    check_that_it_has_policies(grounding, objective, failure_cost, adaptive)
+    if not grounding.handle.solvable:
+        return hopeless(objective, failure_cost)
+    problem = PolicyProblem(grounding, heuristic, limits)
+    outcome = _run_of(problem, objective, failure_cost, precision, limits, progress).outcome(limits)
+    if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE:
+        return outcome
+    return _with_reason(problem, outcome, objective, limits)
+
+
+def check_that_it_has_policies(
+    grounding: Grounding, objective: Objective | Success, failure_cost: float | None, adaptive: bool
+) -> None:
+    """Raise an error if there is no best policy to look for.
+
+    Raises:
+        UnsupportedError: the objective or the problem has no policies; the message says why.
+        UsageError: the failure cost is out of its range.
+    """
+    if isinstance(objective, MeanVariance | MeanDeviation):
+        raise UnsupportedError(
+            f"'{objective}' has no policies: to pay more on good days would lower its value, so that what is best from"
+            " a state on depends on what could have come instead"
+        )
+    if not isinstance(objective, Success | Neutral | Exponential) and type(objective) not in DISUTILITIES:
+        raise UnsupportedError(f"policies by '{objective}' are not supported")
+    if grounding.has_scenarios:
+        raise UnsupportedError(
+            "a policy is not offered where costs depend on hidden facts: to see a cost tells about them, so that what"
+            " is best depends on all costs that were seen"
+        )
+    if not grounding.handle.has_outcomes and not adaptive:
+        raise UsageError("each action has one outcome, so that a plan is the best policy; --adaptive looks for one"
+                         " that depends on what was spent")  # fmt: skip
+    if failure_cost is None:
+        return
+    if isinstance(objective, Success):
+        raise UsageError("to be done is all that 'success' asks for: a failure has no cost")
+    if math.isnan(failure_cost) or failure_cost < 0:
+        raise UsageError(f"the failure cost must be at least 0, found {failure_cost:g}")
+    if math.isinf(failure_cost) and not isinstance(objective, Deadline | Quantile):
+        raise UsageError(f"the failure cost may be infinite for deadlines and quantiles only, found '{objective}'")
+
+
+def _run_of(
+    problem: PolicyProblem,
+    objective: Objective | Success,
+    failure_cost: float | None,
+    precision: float,
+    limits: Limits,
+    progress: Watch,
+) -> PolicyRun:
+    match objective:
+        case Success():
+            return SuccessPolicies(problem, precision, progress)
+        case Neutral() | Exponential():
+            return PricedPolicies(problem, objective, failure_cost, precision, progress)
+        case _:
+            return SpendingPolicies(problem, objective, failure_cost, precision, progress, limits)
+
+
+def _with_reason(
+    problem: PolicyProblem, outcome: PolicyOutcome, objective: Objective | Success, limits: Limits
+) -> PolicyOutcome:
+    """Return the outcome with the reason why no policy has a finite value."""
+    success = most_success(problem, limits.with_grace(SECONDS_TO_READ))
+    if success is not None and success > 1 - 1e-9 and isinstance(objective, Exponential):
+        reason = (
+            f"what a policy that is done for certain costs has no finite certainty equivalent for '{objective}': loops"
+            " are long with a probability that falls too slowly. A smaller alpha, or a failure cost, has a policy"
+        )
+    else:
+        reason = (
+            "no policy is done with probability 1. With a failure cost the agent may give up; the objective 'success'"
+            " asks for the policy that is done most probably"
+        )
+    return replace(outcome, reason=reason, most_success=success)

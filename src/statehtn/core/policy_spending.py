@@ -1,0 +1,234 @@
+"""Policies of agents who mind what they have spent: deadlines, overruns, piecewise linear utilities and levels."""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Any
+
+import statehtn._relax as _relax
+from statehtn.core.law_grid import LawGrid
+from statehtn.core.policy_laws import SpendingLaws
+from statehtn.core.policy_outcome import PolicyOutcome
+from statehtn.core.policy_problem import PolicyProblem
+from statehtn.core.policy_run import PolicyRun, Watch
+from statehtn.errors import UnsupportedError
+from statehtn.limits import Limits
+from statehtn.model.cost.total import as_decimal
+from statehtn.model.status import Status
+from statehtn.risk import ConditionalValueAtRisk, Deadline, MeanCvar, Objective, Overrun, Piecewise, Quantile
+
+MOST_LEFT = 2**31 - 2
+"""Steps of an amount."""
+
+
+@dataclass(frozen=True, slots=True)
+class Disutility:
+    """The disutility of what is left of an amount in the end, in steps, as the core takes it.
+
+    Args:
+        first: what is left to begin with; None where it is chosen from outside.
+        of_left: by what is left, from 0 on.
+        gain: by so much it falls for each step that is left beyond that.
+        beyond: what is spent beyond the amount costs this, and ...
+        slope: ... this for each step.
+    """
+
+    first: int | None
+    of_left: tuple[float, ...] = (0.0,)
+    gain: float = 0.0
+    beyond: float = 0.0
+    slope: float = 0.0
+
+
+def _deadline(objective: Deadline, step: Fraction) -> Disutility:
+    return Disutility(math.floor(as_decimal(objective.budget) / step), beyond=1.0)
+
+
+def _overrun(objective: Overrun, step: Fraction) -> Disutility:
+    first, rest = divmod(as_decimal(objective.budget), step)
+    return Disutility(int(first), beyond=-float(rest), slope=float(step))
+
+
+def _piecewise(objective: Piecewise, step: Fraction) -> Disutility:
+    last = math.ceil(as_decimal(objective.points[-1][0]) / step)
+    value = [-objective.utility(float(step * steps)) for steps in range(last + 2)]
+    return Disutility(last, tuple(reversed(value[:-1])), beyond=value[-2], slope=value[-1] - value[-2])
+
+
+def _quantile(objective: Quantile, step: Fraction) -> Disutility:  # noqa: ARG001
+    return Disutility(None, beyond=1.0)
+
+
+def _mean_cvar(objective: ConditionalValueAtRisk | MeanCvar, step: Fraction) -> Disutility:
+    """Return `(1 - weight) C + weight max(C - t, 0) / (1 - level)` but for `(1 - weight) t`."""
+    mean = (1 - objective.weight) * float(step)
+    slope = mean + objective.weight * float(step) / (1 - objective.level)
+    return Disutility(None, gain=mean, slope=slope)
+
+
+DISUTILITIES: Mapping[type[Any], Callable[[Any, Fraction], Disutility]] = MappingProxyType(
+    {
+        Deadline: _deadline,
+        Overrun: _overrun,
+        Piecewise: _piecewise,
+        Quantile: _quantile,
+        ConditionalValueAtRisk: _mean_cvar,
+        MeanCvar: _mean_cvar,
+    }
+)
+"""Objectives by which the best policy depends on what was spent."""
+
+
+class SpendingPolicies(PolicyRun):
+    """The best policy by an objective of the total cost, from one amount, or from the best one of all.
+
+    Args:
+        problem: the ground problem.
+        objective: its class is in `DISUTILITIES`.
+        failure_cost: what giving up adds to what was spent; None where it is not allowed.
+        precision: see `PolicyRun`.
+        watch: likewise.
+        limits: they hold while laws are put on a grid.
+
+    Raises:
+        UnsupportedError: costs are not whole multiples of one step.
+    """
+
+    def __init__(
+        self,
+        problem: PolicyProblem,
+        objective: Objective,
+        failure_cost: float | None,
+        precision: float,
+        watch: Watch,
+        limits: Limits,
+    ) -> None:
+        super().__init__(problem, precision, watch)
+        self.objective = objective
+        self.grid = LawGrid.first(problem.grounding, limits)
+        if not self.grid.grid.is_exact:
+            raise UnsupportedError(
+                f"a policy by '{objective}' depends on what was spent: all costs must be multiples of one step that is"
+                " not too small for them, and no continuous ones"
+            )
+        self.step = self.grid.grid.step
+        self.disutility = DISUTILITIES[type(objective)](objective, self.step)
+        only_done_runs_pay = failure_cost is None or math.isinf(failure_cost)
+        self.run = problem.run(self.options, self.grid.least, only_done_runs_pay=only_done_runs_pay, sees_costs=True)
+        failure = None if failure_cost is None else failure_cost / float(self.step)
+        self.run.take_laws(
+            self.grid.costs,
+            self.grid.means,
+            self.grid.units_per_step,
+            list(self.disutility.of_left),
+            self.disutility.gain,
+            self.disutility.beyond,
+            self.disutility.slope,
+            failure,
+            problem.heuristic,
+        )
+
+    def outcome(self, limits: Limits) -> PolicyOutcome:
+        """Search, and return what was found."""
+        match self.objective:
+            case Quantile(level=level):
+                return self._quantile(level, limits)
+            case ConditionalValueAtRisk() | MeanCvar():
+                return self._mean_cvar(self.objective, limits)
+        assert self.disutility.first is not None
+        found = self.search(min(self.disutility.first, MOST_LEFT), limits)
+        return self.finish(found)
+
+    def search(self, left: int, limits: Limits) -> _relax.PolicyStatistics:
+        """Search from an amount, in steps."""
+        return self.start(self.run, limits, left)
+
+    def finish(self, found: _relax.PolicyStatistics) -> PolicyOutcome:
+        """Return the outcome of the last search."""
+        return self.finished(found.lower, found.upper, self.run, SpendingLaws(self.grid), found.upper < math.inf)
+
+    def _quantile(self, level: float, limits: Limits) -> PolicyOutcome:
+        """Find the least amount that is enough with the level's probability; more is enough, too."""
+        most_late = 1 - level + 1e-12
+        below, amount = -1, 0  # the largest amount that is known to be too small; one to try
+        enough: int | None = None
+        while enough is None or enough - below > 1:
+            found = self.search(amount, limits)
+            if found.lower == math.inf:
+                return self.finish(found)
+            if found.upper <= most_late:
+                enough = amount
+            elif found.lower > most_late:
+                below = amount
+            else:
+                break  # a limit, or too near to tell
+            amount = 2 * amount + 1 if enough is None else (below + enough) // 2
+            if amount > MOST_LEFT:
+                break
+        low = float(self.step * (below + 1))
+        if enough is None:
+            status = self.stopped or Status.GAVE_UP
+            return PolicyOutcome(status, self.stopped, low, None, None, self.effort)
+        found = self.search(enough, limits.with_grace(1.0))
+        outcome = self.finish(found)
+        high = float(self.step * enough)
+        return replace(outcome, lower=low, upper=high, status=Status.OPTIMAL if low == high else Status.SOLVED)
+
+    def _mean_cvar(self, objective: ConditionalValueAtRisk | MeanCvar, limits: Limits) -> PolicyOutcome:
+        """Find the best amount by branch and bound over intervals of amounts.
+
+        Let V(t) be the least mean of `(1 - weight) C + weight max(C - t, 0) / (1 - level)`, and `weight t + V(t)` what
+        is minimised. V falls, and by at most `rate = weight / (1 - level)` per unit, as it does for each policy. So
+        between t1 and t2 it is at least `max(V(t2), V(t1) - rate (t - t1))`, and what is minimised is least, by this,
+        where the two are equal. From an amount on that is itself as much as the best value, nothing is better.
+        """
+        step, weight = float(self.step), objective.weight
+        rate = weight / (1 - objective.level)
+        known: dict[int, tuple[float, float]] = {}  # by amount: bounds of V
+        best, best_amount = math.inf, 0
+
+        def look(amount: int) -> None:
+            nonlocal best, best_amount
+            found = self.search(amount, limits)
+            shift = (1 - weight) * amount * step
+            known[amount] = (found.lower + shift, found.upper + shift)
+            value = weight * amount * step + known[amount][1]
+            if value < best:
+                best, best_amount = value, amount
+
+        def bound(low: int, high: int) -> tuple[float, int]:
+            (least, _), (lowest, _) = known[low], known[high]
+            fall = max(0.0, least - lowest) / rate if rate > 0 else 0.0
+            meeting = min(low + round(fall / step), high - 1)
+            return weight * (low * step + min(fall, (high - low) * step)) + lowest, max(meeting, low + 1)
+
+        look(0)
+        if known[0][0] == math.inf or best == math.inf or weight == 0:
+            return self.finish(self.search(0, limits.with_grace(1.0)))
+        most = min(math.ceil(best / (weight * step)) if step else 0, MOST_LEFT)
+        if most > 0:
+            look(most)
+        open_intervals = [(*bound(0, most), 0, most)] if most > 1 else []
+        least_closed = min(weight * amount * step + low for amount, (low, _) in known.items())
+        while open_intervals and self.stopped is None:
+            least, meeting, low, high = open_intervals[0]
+            if least >= best - self.precision / 2 * max(1.0, abs(best)):
+                break
+            heapq.heappop(open_intervals)
+            look(meeting)
+            least_closed = min(least_closed, weight * meeting * step + known[meeting][0])
+            for one, other in ((low, meeting), (meeting, high)):
+                if other - one > 1:
+                    heapq.heappush(open_intervals, (*bound(one, other), one, other))
+        lower = min([least_closed, *(interval[0] for interval in open_intervals)])
+        outcome = self.finish(self.search(best_amount, limits.with_grace(1.0)))
+        low_value, high_value = self.values(lower, best)
+        is_optimal = low_value is not None and best - low_value <= self.precision * max(1.0, abs(best))
+        status = Status.OPTIMAL if is_optimal else Status.SOLVED
+        stopped = None if is_optimal else self.stopped
+        return replace(outcome, lower=low_value, upper=high_value, status=status, stopped=stopped)

@@ -1,0 +1,153 @@
+"""From the core's arrays of a policy to its decisions in the words of the domain."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import overload
+
+import statehtn._relax as _relax
+from statehtn.core.grounding import Grounding
+from statehtn.core.policy_laws import BranchLaws
+from statehtn.core.trace import TraceReader
+from statehtn.model.plan import Plan, Step
+from statehtn.model.policy_graph import Branch, Decision, End, FlatPolicy, PolicyGraph, PolicyNode
+from statehtn.model.problem import Fact
+
+_ENDS = {
+    _relax.PolicyEnd.GoesOn: None,
+    _relax.PolicyEnd.Done: End.DONE,
+    _relax.PolicyEnd.NothingLeft: End.FAILED,
+    _relax.PolicyEnd.GivesUp: End.GIVEN_UP,
+}
+
+
+class PolicyReader:
+    """Reads the policy that a run in the core has found last, and must not be run again.
+
+    Args:
+        grounding: the ground problem.
+        run: the run.
+        laws: of what is paid on branches.
+    """
+
+    def __init__(self, grounding: Grounding, run: _relax.PolicyRun, laws: BranchLaws) -> None:
+        self.grounding = grounding
+        self.run = run
+        self.laws = laws
+        self._traces = TraceReader(grounding)
+        self._facts: dict[int, Fact] = {}
+
+    @cached_property
+    def flat(self) -> FlatPolicy:
+        """What runs do and cost, without names."""
+        run = self.run
+        return FlatPolicy(
+            [_ENDS[end] for end in run.ends], run.first, run.probabilities, self.laws.of_run(run), run.successors
+        )
+
+    @cached_property
+    def graph(self) -> PolicyGraph:
+        """The policy; nodes are made when they are asked for."""
+        return PolicyGraph(PolicyNodes(self), self.flat)
+
+    def plan_of(self, branches: Sequence[int]) -> Plan:
+        """Return the plan of a run, as branches from the root on, with its decomposition."""
+        return self._traces.read(self.run.plan(branches))
+
+    def node(self, number: int) -> PolicyNode:
+        """Return a node in the words of the domain."""
+        run, handle = self.run, self.grounding.handle
+        facts = set(run.facts(number))
+        tasks = run.tasks(number)
+        end = self.flat.ends[number]
+        return PolicyNode(
+            frozenset(map(self._fact, facts)),
+            tuple(map(self._task, tasks)),
+            tuple(run.ordering(number)),
+            None if end is not None else self._decision(number, tasks, facts, handle),
+            end,
+            self.laws.left(run, number),
+            frozenset(map(self._fact, run.known(number))),
+        )
+
+    def _decision(self, number: int, tasks: Sequence[int], facts: set[int], handle: _relax.GroundProblem) -> Decision:
+        index, method = self.run.step(number)
+        flat, actions = self.flat, self.run.actions
+        branches = []
+        for at in flat.branches(number):
+            added, deleted = self._changes(actions[at], facts)
+            branches.append(Branch(flat.probabilities[at], flat.laws[at], flat.successors[at], added, deleted))
+        task = self._task(tasks[index]) if self._is_of_the_domain(tasks[index]) else None
+        if method is None:
+            return Decision(index, task, tuple(branches))
+        parts = range(*handle.method_parts(method))
+        lifted = self.grounding.encoding.schemes[handle.part_schema(parts.start)].method if parts else None
+        name = lifted.name if lifted is not None else "initial network" if parts else "case"
+        objects = self.grounding.objects(handle.part_arguments(parts.start)) if lifted is not None else ()
+        return Decision(index, task, tuple(branches), name, objects)
+
+    def _changes(self, action: int | None, facts: set[int]) -> tuple[frozenset[Fact], frozenset[Fact]]:
+        """Return what an action makes true and false in a state; what is added wins."""
+        handle = self.grounding.handle
+        added, deleted = set[int](), set[int]()
+        for effect in range(*handle.effects(action)) if action is not None else ():
+            is_due = facts.issuperset(handle.effect_conditions(effect))
+            if is_due and facts.isdisjoint(handle.effect_negative_conditions(effect)):
+                added.update(handle.effect_adds(effect))
+                deleted.update(handle.effect_deletes(effect))
+        return (
+            frozenset(map(self._fact, added - facts)),
+            frozenset(map(self._fact, (deleted & facts) - added)),
+        )
+
+    def _fact(self, number: int) -> Fact:
+        fact = self._facts.get(number)
+        if fact is None:
+            grounding, handle = self.grounding, self.grounding.handle
+            name = grounding.encoding.predicates[handle.fact_predicate[number]]
+            fact = self._facts[number] = (name, *grounding.objects(handle.fact_arguments(number)))
+        return fact
+
+    def _is_of_the_domain(self, task: int) -> bool:
+        """Tell whether an action or a compound task is in the domain, not only in the ground problem."""
+        grounding, handle = self.grounding, self.grounding.handle
+        if task < handle.action_count:
+            return grounding.encoding.actions[handle.action_schema[task]] is not None
+        return " " not in grounding.task_name(handle.compound_schema[task - handle.action_count])
+
+    def _task(self, number: int) -> Step:
+        grounding, handle = self.grounding, self.grounding.handle
+        if number < handle.action_count:
+            schema, arguments = handle.action_schema[number], handle.action_arguments(number)
+        else:
+            compound = number - handle.action_count
+            schema, arguments = handle.compound_schema[compound], handle.compound_arguments(compound)
+        return Step(grounding.task_name(schema), grounding.objects(arguments))
+
+
+class PolicyNodes(Sequence[PolicyNode]):
+    """The nodes of a policy, each read when it is first asked for.
+
+    Args:
+        reader: reads them.
+    """
+
+    def __init__(self, reader: PolicyReader) -> None:
+        self._reader = reader
+        self._known: dict[int, PolicyNode] = {}
+
+    def __len__(self) -> int:
+        return len(self._reader.flat)
+
+    @overload
+    def __getitem__(self, index: int) -> PolicyNode: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[PolicyNode]: ...
+    def __getitem__(self, index: int | slice) -> PolicyNode | Sequence[PolicyNode]:
+        if isinstance(index, slice):
+            return [self[at] for at in range(*index.indices(len(self)))]
+        at = range(len(self))[index]
+        if at not in self._known:
+            self._known[at] = self._reader.node(at)
+        return self._known[at]
