@@ -235,6 +235,18 @@ class TestBuilder:
         with pytest.raises(UsageError, match="an outcome is Outcome"):
             builder.action("grasp", [b], outcomes=[(0.5, held(b)), (0.5, ())])
 
+    def test_outcomes_must_not_change_or_read_hidden_facts(self) -> None:
+        for hidden in ("broken", "icy"):
+            builder = self.build()
+            (b,) = builder.types["block"].variables("b")
+            broken, icy = builder.predicates["broken"](), builder.predicate("icy")()
+            part = statehtn.when(broken, Outcome(0.5, icy), Outcome(0.5))
+            builder.set_network([builder.action("grasp", [b], outcomes=part)("a")])
+            builder.initially_by_chance((0.5, broken if hidden == "broken" else icy), (0.5, ()))
+            verb = "depends on" if hidden == "broken" else "changes"
+            with pytest.raises(UnsupportedError, match=f"an effect of action 'grasp' {verb} a fact of '{hidden}'"):
+                builder.build()
+
     def test_another_cost_replaces_those_of_outcomes(self) -> None:
         problem = read("(probabilistic 0.5 (and (held ?b) (increase (total-cost) 1)) 0.5 (increase (total-cost) 2))")
         other = statehtn.with_cost(problem, "grasp", 7)

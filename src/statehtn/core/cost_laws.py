@@ -81,9 +81,9 @@ class CostLaws:
             ]
         always = self.always[schema]
         parts = self._read_parts(schema, self.handle.action_cost_blocks(number))
-        combinations = self.outcomes.combinations(number) if action.outcomes else ()
-        if len(combinations) < 2:
+        if not (action.outcomes and self.outcomes.is_mixture(number)):
             return self._law(number, schema, action, always + parts)
+        combinations = self.outcomes.combinations(number)
         chosen = [[pair for pair in parts if _is_due(*pair, combination)] for combination in combinations]
         laws = [self._law(number, schema, action, always + due) for due in chosen]
         weights = [float(self.outcomes.probability(number, combination)) for combination in combinations]

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
 import statehtn._relax as _relax
 from statehtn.core.encode import Encoding
+from statehtn.model import Action
+from statehtn.model.cost.expressions import constant_value
 from statehtn.model.ground_outcome import branch_probabilities
 
 
@@ -42,23 +45,23 @@ class Outcomes:
         self._encoding = encoding
         self._handle = handle
         self._schemas = handle.action_schema
-        self._known: dict[tuple[int, tuple[str, ...], int, tuple[str, ...]], tuple[Fraction, ...]] = {}
+        self._of_blocks: dict[tuple[int, tuple[str, ...], int, tuple[str, ...]], tuple[Fraction, ...]] = {}
+        self._of_records: dict[
+            tuple[int, ...], Fraction
+        ] = {}  # of actions for all of whose instances they are the same
+        self._is_the_same: dict[int, bool] = {}  # by schema
 
     def combinations(self, action: int) -> tuple[Combination, ...]:
         """Return the combinations of branches any of which is this outcome; none for an action without outcomes."""
+        return tuple(self._read(self._handle.action_branches(action)))
+
+    def is_mixture(self, action: int) -> bool:
+        """Tell whether several combinations of branches are this outcome, so that its cost is a mixture."""
         record = self._handle.action_branches(action)
-        found: list[Combination] = []
-        at = 0
-        while at < len(record):
-            count, at = record[at], at + 1
-            chosen = []
-            for _ in range(count):
-                block, branch, size = record[at : at + 3]
-                objects = record[at + 3 : at + 3 + size]
-                chosen.append(ChosenBranch(block, branch, tuple(self._encoding.objects[number] for number in objects)))
-                at += 3 + size
-            found.append(tuple(chosen))
-        return tuple(found)
+        at = 1
+        for _ in range(record[0] if record else 0):
+            at += 3 + record[at + 2]
+        return at < len(record)
 
     def probability(self, action: int, combination: Combination) -> Fraction:
         """Return the probability of one of an action's combinations, exactly.
@@ -66,7 +69,8 @@ class Outcomes:
         Raises:
             InputError: a probability is none; the message names the action.
         """
-        return math.prod((self._of(action, chosen)[chosen.branch] for chosen in combination), start=Fraction(1))
+        factors = [self._of(action, chosen)[chosen.branch] for chosen in combination] or [Fraction(1)]
+        return math.prod(factors[1:], start=factors[0])
 
     def probabilities(self) -> tuple[Fraction, ...]:
         """Return by ground action how likely it is that this outcome comes, exactly; 1 without several outcomes.
@@ -78,20 +82,51 @@ class Outcomes:
         if not self._encoding.problem.domain.has_outcomes:
             return (certain,) * len(self._schemas)
         found = []
-        for action in range(len(self._schemas)):
-            ways = self.combinations(action)
-            found.append(sum((self.probability(action, way) for way in ways), Fraction(0)) if ways else certain)
+        for action, schema in enumerate(self._schemas):
+            lifted = self._encoding.actions[schema]
+            if lifted is None or not lifted.outcomes:
+                found.append(certain)
+                continue
+            record = self._handle.action_branches(action)
+            key = (schema, *record) if self._has_constants(schema, lifted) else None
+            known = None if key is None else self._of_records.get(key)
+            if known is None:
+                ways = [self.probability(action, way) for way in self._read(record)]
+                known = sum(ways[1:], ways[0]) if ways else certain
+                if key is not None:
+                    self._of_records[key] = known
+            found.append(known)
         return tuple(found)
+
+    def _has_constants(self, schema: int, action: Action) -> bool:
+        """Tell whether all probabilities of an action are numbers."""
+        if schema not in self._is_the_same:
+            expressions = (outcome.probability for block in action.outcomes for outcome in block.outcomes)
+            self._is_the_same[schema] = all(constant_value(expression) is not None for expression in expressions)
+        return self._is_the_same[schema]
+
+    def _read(self, record: list[int]) -> Iterator[Combination]:
+        """Yield what a row of `action_branches` says."""
+        at = 0
+        while at < len(record):
+            count, at = record[at], at + 1
+            chosen = []
+            for _ in range(count):
+                block, branch, size = record[at : at + 3]
+                objects = record[at + 3 : at + 3 + size]
+                chosen.append(ChosenBranch(block, branch, tuple(self._encoding.objects[number] for number in objects)))
+                at += 3 + size
+            yield tuple(chosen)
 
     def _of(self, action: int, chosen: ChosenBranch) -> tuple[Fraction, ...]:
         """Return the probabilities of all branches of the block from which one was chosen."""
         schema = self._schemas[action]
         arguments = tuple(self._encoding.objects[number] for number in self._handle.action_arguments(action))
         key = schema, arguments, chosen.block, chosen.objects
-        if key not in self._known:
+        if key not in self._of_blocks:
             lifted = self._encoding.actions[schema]
             assert lifted is not None
             block = lifted.outcomes[chosen.block]
             values = self._encoding.problem.function_values
-            self._known[key] = branch_probabilities(block, lifted, arguments, chosen.objects, values)
-        return self._known[key]
+            self._of_blocks[key] = branch_probabilities(block, lifted, arguments, chosen.objects, values)
+        return self._of_blocks[key]

@@ -42,15 +42,17 @@ def branch_probabilities(
         least = _shown(min(stated))
         raise InputError(f"the outcomes of {name}: a probability must not be negative, found {least}", block.place)
     total = sum(stated, Fraction(0))
+    rest = (Fraction(0),) * (len(block.branches) - len(stated))
+    if total == 1:
+        return (*stated, *rest)
     if total > 1 + PROBABILITY_TOLERANCE:
         raise InputError(
             f"the probabilities of the outcomes of {name} sum to {_shown(total)}, more than 1; those of one block must "
             f"sum to 1",
             block.place,
         )
-    rest = len(block.branches) - len(stated)  # whether there is one
     if total >= 1 - PROBABILITY_TOLERANCE:  # what is off by rounding only is spread over all branches
-        return (*(probability / total for probability in stated), *(Fraction(0),) * rest)
+        return (*(probability / total for probability in stated), *rest)
     if not all(isinstance(outcome.probability, Number) for outcome in block.outcomes):  # the reader saw the others
         # Names the lifted action only, so that Python shows it once and not for every ground action.
         warnings.warn(

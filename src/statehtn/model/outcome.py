@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 
 from statehtn.errors import Place
 from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE, Arithmetic, CostBlock, Expression, Number
@@ -33,7 +34,7 @@ class Outcome:
     costs: tuple[CostBlock, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class OutcomeBlock:
     """Outcomes of an action of which exactly one comes, in the states where the block's condition holds.
 
@@ -50,7 +51,7 @@ class OutcomeBlock:
     parameters: tuple[Parameter, ...] = ()
     place: Place | None = field(default=None, compare=False, repr=False)
 
-    @property
+    @cached_property
     def branches(self) -> tuple[Outcome, ...]:
         """The outcomes, and last that nothing happens, unless the probabilities are known to sum to 1."""
         total = sum_of_constants(outcome.probability for outcome in self.outcomes)
