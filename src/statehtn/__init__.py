@@ -40,7 +40,19 @@ if TYPE_CHECKING:
         relax_to_pddl,
         to_unified_planning,
     )
-    from statehtn.planner import Planner, attitude_map, compare_attitudes, frontier, improving, plan, top_plans
+    from statehtn.planner import (
+        Planner,
+        attitude_map,
+        compare_attitudes,
+        frontier,
+        improving,
+        plan,
+        policy,
+        top_plans,
+    )
+    from statehtn.policies.policy import Policy
+    from statehtn.policies.result import PolicyResult
+    from statehtn.policies.sequence import sequence_cost
     from statehtn.result import Result
     from statehtn.risk import (
         OBJECTIVES,
@@ -61,8 +73,11 @@ if TYPE_CHECKING:
         Overrun,
         Piecewise,
         Quantile,
+        Success,
+        SuccessUtility,
         Utility,
         objective,
+        trajectory_utility,
         utility_for,
     )
     from statehtn.risk.elicitation import Elicited, alpha_of
@@ -111,6 +126,8 @@ __all__ = [
     "Place",
     "Plan",
     "Planner",
+    "Policy",
+    "PolicyResult",
     "PricedStep",
     "Problem",
     "ProblemBuilder",
@@ -121,6 +138,8 @@ __all__ = [
     "StateHtnError",
     "Status",
     "Step",
+    "Success",
+    "SuccessUtility",
     "TopPlans",
     "TopProgress",
     "UnsupportedError",
@@ -143,6 +162,7 @@ __all__ = [
     "improving",
     "objective",
     "plan",
+    "policy",
     "read_costs",
     "read_hddl",
     "read_hddl_text",
@@ -151,10 +171,12 @@ __all__ = [
     "register",
     "relax",
     "relax_to_pddl",
+    "sequence_cost",
     "survey",
     "tabulate_costs",
     "to_unified_planning",
     "top_plans",
+    "trajectory_utility",
     "utility_for",
     "validate",
     "when",
@@ -188,7 +210,10 @@ _MODULES_FOR_LATER = {
         "relax_to_pddl",
         "to_unified_planning",
     ),
-    "planner": ("Planner", "attitude_map", "compare_attitudes", "frontier", "improving", "plan", "top_plans"),
+    "planner": ("Planner", "attitude_map", "compare_attitudes", "frontier", "improving", "plan", "policy", "top_plans"),
+    "policies.policy": ("Policy",),
+    "policies.result": ("PolicyResult",),
+    "policies.sequence": ("sequence_cost",),
     "result": ("Result",),
     "risk": (
         "OBJECTIVES",
@@ -209,8 +234,11 @@ _MODULES_FOR_LATER = {
         "Overrun",
         "Piecewise",
         "Quantile",
+        "Success",
+        "SuccessUtility",
         "Utility",
         "objective",
+        "trajectory_utility",
         "utility_for",
     ),
     "risk.elicitation": ("Elicited", "alpha_of"),

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from statehtn.counted import brief
-from statehtn.errors import InternalError
+from statehtn.errors import InputError, InternalError
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
@@ -21,16 +22,20 @@ from statehtn.risk import (
     AdditiveObjective,
     Keep,
     Objective,
+    SuccessUtility,
     ValueUnit,
     adds_up,
     agent_in,
     certainty_equivalent,
     plan_risk_cost,
 )
-from statehtn.validation import validate
+from statehtn.validation import Validation, validate
+from statehtn.validation.validation import validate_trajectory
 
 SECONDS_TO_VALIDATE = 0.2
 """A plan that is found right before the time is over is given that long: enough for some thousands of steps."""
+
+CERTAIN = Fraction(1)
 
 PRICES = ("plan", "length", "expected_cost", "risk_cost", "expected_utility", "log10_expected_utility", "value")
 """What the JSON objects say of a plan."""
@@ -71,12 +76,14 @@ class PricedStep:
         expected_cost: the mean of the distribution, positive, in the domain's unit.
         risk_cost: what it adds to the value of the plan, in the same unit: for an agent that the paper knows the
             certainty equivalent of the distribution. None where such prices do not add up.
+        probability: of the outcome that the plan counts on; 1 where the action has no other.
     """
 
     step: Step
     law: CostLaw
     expected_cost: float
     risk_cost: float | None
+    probability: float = 1.0
 
     def __repr__(self) -> str:
         price = f"mean {self.expected_cost:.6g}"
@@ -94,6 +101,7 @@ class PricedStep:
             "arguments": list(self.step.arguments),
             "expected_cost": self.expected_cost,
             "risk_cost": self.risk_cost,
+            **({} if self.probability == 1 else {"probability": self.probability}),
         }
         if isinstance(self.law, CostDistribution):
             return entry | {"outcomes": [list(outcome) for outcome in self.law.outcomes]}
@@ -190,12 +198,20 @@ def validated_and_priced(
         MissingNumber: a cost of the plan needs a number that `:init` does not give.
     """
     try:
-        validation = validate(problem, plan, limits)
+        validation = _validation(problem, plan, limits)
     except ENDINGS as ending:
         return not_validated(plan, objective, keep, status_of(ending))
     if not validation.valid:
         raise InternalError(f"the search returned a wrong plan: {'; '.join(validation.reasons)}")
     return priced(plan.with_costs(validation.costs), objective, keep)
+
+
+def _validation(problem: Problem, plan: Plan, limits: Limits) -> Validation:
+    """Validate a plan; one that counts on outcomes as the run in which they come."""
+    if plan.outcomes is None:
+        return validate(problem, plan, limits)
+    came = [(outcome.added, outcome.deleted) for outcome in plan.outcomes]
+    return validate_trajectory(problem, plan, came, plan.seen, limits)
 
 
 def not_validated(plan: Plan, objective: Objective, keep: Sequence[Keep], stopped: Status) -> FoundPlan:
@@ -237,6 +253,8 @@ def value_of(plan: Plan, objective: Objective) -> float:
         InputError: it is worth nothing finite, or that cannot be computed.
     """
     assert plan.costs is not None
+    if plan.outcomes is not None:  # what it counts on has a price, too
+        return priced(plan, objective).value
     if isinstance(objective, AdditiveObjective) and adds_up(objective, plan.costs):
         return plan_risk_cost(plan.costs, objective)
     return objective.value(sum_of(plan.costs))
@@ -244,16 +262,31 @@ def value_of(plan: Plan, objective: Objective) -> float:
 
 def _priced_steps(plan: Plan, costs: Sequence[CostLaw], objective: Objective) -> PricedSteps:
     """Return the steps with their prices; a law is priced once, and equal steps of one law are one object."""
-    known: dict[tuple[object, int], PricedStep] = {}
+    known: dict[tuple[object, int, Fraction], PricedStep] = {}
     prices: dict[int, tuple[float, float | None]] = {}
     is_priced = adds_up(objective, costs)
     price_of = objective.risk_cost if is_priced and isinstance(objective, AdditiveObjective) else lambda _: None
+    chances = (CERTAIN,) * len(costs) if plan.outcomes is None else [one.probability for one in plan.outcomes]
     steps: list[PricedStep] = []
-    for step, law in zip(plan.steps, costs, strict=True):
-        one = known.get((step, id(law)))
+    for step, law, chance in zip(plan.steps, costs, chances, strict=True):
+        one = known.get((step, id(law), chance))
         if one is None:
             if id(law) not in prices:
                 prices[id(law)] = law.mean, price_of(law)
-            one = known[step, id(law)] = PricedStep(step, law, *prices[id(law)])
+            mean, price = prices[id(law)]
+            if chance != CERTAIN and isinstance(objective, SuccessUtility) and price is not None:
+                price += _price_of(chance, step, objective)
+            one = known[step, id(law), chance] = PricedStep(step, law, mean, price, float(chance))
         steps.append(one)
     return PricedSteps(steps)
+
+
+def _price_of(chance: Fraction, step: Step, objective: SuccessUtility) -> float:
+    """Return the price of counting on an outcome.
+
+    Raises:
+        InputError: it cannot come.
+    """
+    if not chance:
+        raise InputError(f"every plan counts on an outcome of {step} of probability 0, so that none is worth anything")
+    return objective.outcome_price(float(chance))

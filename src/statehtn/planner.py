@@ -14,6 +14,7 @@ from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.one_shot import one_shot
 from statehtn.pipeline import solve_top
+from statehtn.policies.planning import PolicyPlanner
 from statehtn.result import Result
 from statehtn.risk import Attitude, AttitudeName, ObjectiveLike
 from statehtn.session import ProgressCallback, Session, TopProgressCallback
@@ -35,7 +36,7 @@ from statehtn.sweeps.frontier import Frontier, find_frontier
 from statehtn.top_result import TopPlans
 
 
-class Planner:
+class Planner(PolicyPlanner):
     """Plans for one problem as often as is wanted: it is grounded once, and priced once for each objective.
 
     The functions of the same names as its methods take a problem first, and are sessions of one call. The first call
@@ -338,3 +339,5 @@ attitude_map = one_shot(Planner, Planner.attitude_map)
 """`Planner.attitude_map` for a problem of one's own: see there."""
 frontier = one_shot(Planner, Planner.frontier)
 """`Planner.frontier` for a problem of one's own: see there."""
+policy = one_shot(Planner, Planner.policy)
+"""`Planner.policy` for a problem of one's own: see there."""

@@ -118,6 +118,13 @@ class Result(RunResult[Settings]):
         return self.found is not None
 
     @property
+    def problem_class(self) -> str | None:
+        """The paper's RA-parameters of what was solved, such as `PS10110`; None where the paper has no such class."""
+        name = self.settings.problem_class
+        counts_on_outcomes = self.found is not None and self.found.plan.outcomes is not None
+        return name if name is None or not counts_on_outcomes else f"{name[:2]}n{name[3:]}"
+
+    @property
     def solver(self) -> str:
         """The name of the solver."""
         return self.settings.solver

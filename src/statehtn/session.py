@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from statehtn.compatible import LABEL_SWITCHES
-from statehtn.core.grounding import Grounding, ground
+from statehtn.core.grounding import Grounding, GroundingSwitches, ground
 from statehtn.core.plan_based import search_networks
 from statehtn.core.pricing import PricedProblem, price
 from statehtn.core.progress import Progress, TopProgress
@@ -24,7 +24,7 @@ from statehtn.model.cost.scenario_cost import as_if_independent
 from statehtn.model.plan import Plan
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
-from statehtn.risk import AdditiveObjective, Neutral
+from statehtn.risk import AdditiveObjective, Neutral, SuccessUtility
 from statehtn.settings import Settings, TopSettings
 
 ProgressCallback = Callable[[Progress], None]
@@ -44,6 +44,7 @@ class Session:
         self.source = source
         self.problem = source if isinstance(source, Problem) else None
         self._grounding: Grounding | None = None
+        self._for_policies: Grounding | None = None
         self.valid: dict[Plan, Plan] = {}
         """Plans that were found to be valid, with what their steps cost."""
         self._priced: dict[AdditiveObjective, PricedProblem] = {}
@@ -57,26 +58,40 @@ class Session:
         assert self.problem is not None
         return self.problem
 
-    def ground(self, limits: Limits, meter: Meter) -> Grounding:
+    def ground(self, limits: Limits, meter: Meter, counts_on_outcomes: bool = False) -> Grounding:
         """Return the ground problem, and note how large it is.
+
+        Args:
+            limits: they hold.
+            meter: takes the time.
+            counts_on_outcomes: whether plans count on one outcome of each action, of which there may be several.
 
         Raises:
             UnsupportedError: an action has several outcomes.
         """
         problem = self.read(limits, meter)
-        _refuse_outcomes(problem)
+        if not counts_on_outcomes:
+            _refuse_outcomes(problem)
         with meter.timed("ground"):
             if self._grounding is None:
                 self._grounding = ground(problem, limits)
-        found = self._grounding
-        sizes = {"facts": found.fact_count, "actions": found.action_count}
-        meter.note(**sizes, tasks=found.task_count, methods=found.method_count)
-        log.info("grounding: %.3f s, %s", meter.statistics.ground_seconds, meter.statistics.sizes)
-        return found
+        return _measured(self._grounding, meter)
+
+    def ground_for_policies(self, limits: Limits, meter: Meter) -> Grounding:
+        """Return the ground problem in which methods are whole, and note how large it is.
+
+        Where a method is split, its parts are chosen one after the other: an agent could choose one after it has seen
+        what came of another, which choosing the method does not allow.
+        """
+        problem = self.read(limits, meter)
+        with meter.timed("ground"):
+            if self._for_policies is None:
+                self._for_policies = ground(problem, limits, GroundingSwitches(split_methods=False))
+        return _measured(self._for_policies, meter)
 
     def price(self, objective: AdditiveObjective, limits: Limits, meter: Meter) -> PricedProblem:
         """Return the ground problem with the prices of its actions."""
-        grounding = self.ground(limits, meter)
+        grounding = self.ground(limits, meter, isinstance(objective, SuccessUtility))
         with meter.timed("search"):
             if objective not in self._priced:
                 self._priced[objective] = price(grounding, objective, limits)
@@ -132,7 +147,10 @@ class Session:
 
     def _hangs_together(self, settings: Settings | TopSettings, limits: Limits, meter: Meter) -> bool:
         """Tell whether costs hang together, so that prices for this objective do not add up."""
-        return not isinstance(settings.objective, Neutral) and self.ground(limits, meter).has_scenarios
+        return not isinstance(settings.objective, Neutral) and self._ground_for(settings, limits, meter).has_scenarios
+
+    def _ground_for(self, settings: Settings | TopSettings, limits: Limits, meter: Meter) -> Grounding:
+        return self.ground(limits, meter, isinstance(settings.objective, SuccessUtility))
 
     def _by_labels(
         self,
@@ -146,6 +164,14 @@ class Session:
         what = {"keep": settings.keep, "precision": settings.precision}
         with meter.timed("search"):
             return search(grounding, settings.objective, **what, limits=limits, progress=progress)
+
+
+def _measured(found: Grounding, meter: Meter) -> Grounding:
+    """Return a ground problem whose size is noted."""
+    sizes = {"facts": found.fact_count, "actions": found.action_count}
+    meter.note(**sizes, tasks=found.task_count, methods=found.method_count)
+    log.info("grounding: %.3f s, %s", meter.statistics.ground_seconds, meter.statistics.sizes)
+    return found
 
 
 def _label_search(settings: Settings | TopSettings) -> Callable[..., Iterator[SearchOutcome]]:
@@ -189,6 +215,7 @@ def _refuse_outcomes(problem: Problem) -> None:
     for action in problem.domain.actions.values():
         for block in action.outcomes:
             raise UnsupportedError(
-                f"action '{action.name}' changes facts by chance, which no plan, a sequence of actions, can answer",
+                f"action '{action.name}' changes facts by chance, which no plan, a sequence of actions, can answer; a "
+                f"policy can: statehtn.policy, or 'statehtn policy'",
                 block.place,
             )

@@ -104,3 +104,38 @@ def test_two_ways_to_one_place_share_it() -> None:
     ]
     assert "<pre" in policy_html(graph)
     assert "(jammed lock)" in policy_html(graph)
+
+
+def test_equal_loops_are_one_wherever_they_are_entered() -> None:
+    """Two copies of trying and looking, one entered at the try and the other at the look."""
+    look, go = Step("look"), Step("go")
+
+    def loop(first: int) -> list[PolicyNode]:
+        held = Branch(0.5, certain(1), 5, frozenset({("held", "cup")}))
+        return [
+            PolicyNode(
+                frozenset(),
+                (),
+                (),
+                Decision(0, Step("try", ("cup",)), (held, Branch(0.5, certain(1), first + 1))),
+            ),
+            PolicyNode(frozenset(), (), (), Decision(0, look, (Branch(1.0, certain(2), first),))),
+        ]
+
+    opened, closed = Branch(0.4, certain(1), 1, frozenset({("open",)})), Branch(0.6, certain(1), 4)
+    nodes = [
+        PolicyNode(frozenset(), (), (), Decision(0, go, (opened, closed))),
+        *loop(1),
+        *loop(3),
+        PolicyNode(frozenset(), (), (), None, End.DONE),
+    ]
+    assert policy_text(PolicyGraph.of(nodes)).splitlines() == [
+        "(go)  cost 1",
+        "  if (open), 0.4:",
+        "    A: (try cup)  cost 1",
+        "      if (held cup), 0.5: done",
+        "      if nothing changes, 0.5:",
+        "        B: (look)  cost 2",
+        "        go on at A",
+        "  if nothing changes, 0.6: go on at B",
+    ]

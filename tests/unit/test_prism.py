@@ -32,6 +32,7 @@ def test_each_cost_has_a_state_of_its_own() -> None:
         "endmodule",
         "",
         'rewards "cost"',
+        "  true : 0;",
         "  s=4 : 1;",
         "  s=5 : 1;",
         "  s=6 : 3;",

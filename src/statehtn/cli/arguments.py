@@ -11,8 +11,17 @@ from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
 from statehtn.cli.formats import FORMATS
 from statehtn.cli.model_arguments import add_check, add_why
 from statehtn.cli.parser import Parser
+from statehtn.cli.policy_arguments import add_export, add_policy
 from statehtn.cli.risk_arguments import add_atlas, add_attitude, add_compare_attitudes
-from statehtn.cli.shared_options import add_agent, add_inputs, add_keep, add_limits, add_objective, count
+from statehtn.cli.shared_options import (
+    add_agent,
+    add_failing,
+    add_inputs,
+    add_keep,
+    add_limits,
+    add_objective,
+    count,
+)
 from statehtn.cli.streams import emit
 from statehtn.compatible import HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES
 from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
@@ -63,9 +72,11 @@ def _parsers() -> tuple[Parser, argparse._SubParsersAction[Parser]]:
     commands = parser.add_subparsers(
         dest="command",
         required=True,
-        metavar="plan|top|validate|check|why|compare-attitudes|atlas|attitude|compare|report|graph|completion",
+        metavar="plan|policy|top|validate|check|why|compare-attitudes|atlas|attitude|compare|report|graph|export|"
+        "completion",
     )
     _add_plan(commands)
+    add_policy(commands)
     _add_top(commands)
     _add_validate(commands)
     add_check(commands)
@@ -76,6 +87,7 @@ def _parsers() -> tuple[Parser, argparse._SubParsersAction[Parser]]:
     _add_compare(commands)
     _add_report(commands)
     _add_graph(commands)
+    add_export(commands)
     add_completion(commands)
     return parser, commands
 
@@ -106,6 +118,7 @@ def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
     )
     add_inputs(parser)
     add_objective(parser)
+    add_failing(parser.add_argument_group("policies, where actions have several outcomes"))
     search = parser.add_argument_group("the search")
     search.add_argument(
         "--solver",

@@ -13,7 +13,8 @@ from statehtn.cli.formats import printed
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import objective_in
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
-from statehtn.compatible import switches_in
+from statehtn.compatible import NOTHING, switches_in
+from statehtn.core.heuristics import PORTFOLIO
 from statehtn.display.words import ending
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
@@ -22,9 +23,24 @@ from statehtn.limits import LimitReached, Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
 from statehtn.result import Result
+from statehtn.risk import Success, SuccessUtility
 from statehtn.session import Session
 from statehtn.settings import Settings
 from statehtn.sweeps import solutions
+
+OF_PLANS: dict[str, tuple[object, ...]] = {
+    "solver": ("state",),
+    "heuristic": (None, PORTFOLIO),
+    "search": ("astar",),
+    "weight": (None,),
+    "branch": (None,),
+    "without": (NOTHING,),
+    "keep": ([],),
+    "output": (None,),
+    "format": ("table", "json"),
+}
+"""Options that policies do not have, with what they may be nevertheless: their defaults."""
+SUCCESS = str(Success())
 
 
 def run_plan(options: argparse.Namespace) -> ExitCode:
@@ -34,6 +50,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         OutputError: the plan was found and printed, but could not be written to a file.
     """
+    if options.adaptive or options.failure_cost is not None or options.objective == SUCCESS:
+        return _run_policy(options)
     settings = Settings.of(
         objective_in(options),
         solver=options.solver,
@@ -52,7 +70,7 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         raise UsageError(f"both {asked} and the plan of --output would go to standard output; leave out one of them")
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
     keeper = _PlanKeeper(output, limits)
-    session = Session(partial(read_problem, options))
+    session = Session(partial(_read_for_plans, options, settings))
     every_plan = output is not None and output.is_regular
     result = Result(Status.INTERRUPTED, settings, Meter().read(), Status.INTERRUPTED)
     try:
@@ -62,6 +80,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
                     keeper.keep(result, session.problem)
     except KeyboardInterrupt:  # between two phases
         pass
+    except _SeveralOutcomes as found:
+        return _run_policy(options, Session(found.problem), limits)
     keeper.finish(result, session.problem)
     _print(result, session.problem, options, beside=output is not None and output.is_stdout)
     if (
@@ -74,6 +94,40 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
     if keeper.failure is not None:
         raise keeper.failure
     return EXIT_CODES[result.status]
+
+
+class _SeveralOutcomes(Exception):
+    """Actions of a problem have several outcomes, so that it has policies and no plans."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        super().__init__()
+
+
+def _read_for_plans(options: argparse.Namespace, settings: Settings, limits: Limits) -> Problem:
+    """Read the problem; a plan answers it where each action has one outcome, or the plan counts on one of them."""
+    problem = read_problem(options, limits)
+    if problem.domain.has_outcomes and not isinstance(settings.objective, SuccessUtility):
+        raise _SeveralOutcomes(problem)
+    return problem
+
+
+def _run_policy(options: argparse.Namespace, session: Session | None = None, limits: Limits | None = None) -> ExitCode:
+    """Find a policy instead of a plan.
+
+    Raises:
+        UsageError: options are given that only plans have.
+    """
+    from statehtn.cli.policy_command import run_policy  # what it needs would slow down most runs
+
+    for name, defaults in OF_PLANS.items():
+        if getattr(options, name) not in defaults:
+            raise UsageError(
+                f"--{name.replace('_', '-')} is for plans, and what is asked for is a policy, since actions have "
+                "several outcomes or the options ask for one; leave it out"
+            )
+    options.json = options.format == "json"
+    return run_policy(options, session, limits)
 
 
 class _PlanKeeper:

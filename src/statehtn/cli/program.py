@@ -40,6 +40,14 @@ def _run(options: argparse.Namespace) -> ExitCode:
     match options.command:
         case "plan":
             return run_plan(options)
+        case "policy":
+            from statehtn.cli.policy_command import run_policy  # what it needs would slow down the others
+
+            return run_policy(options)
+        case "export":
+            from statehtn.cli.export_command import run_export
+
+            return run_export(options)
         case "top":
             from statehtn.cli.top_command import run_top  # what it needs would slow down the others
 

@@ -7,7 +7,7 @@ import time
 from types import TracebackType
 
 from statehtn.cli.streams import show_progress
-from statehtn.core.progress import Progress, TopProgress
+from statehtn.core.progress import Progress, SearchProgress, TopProgress
 from statehtn.session import ProgressCallback
 
 SECONDS_BETWEEN_LINES = 0.1
@@ -39,6 +39,11 @@ class ProgressLine:
             parts.append(f"best plan so far {progress.best:.6g}")
         self._describe(progress, parts)
 
+    def show_policy(self, progress: SearchProgress) -> None:
+        """Describe a search for a policy as it is now."""
+        bound = progress.lower_bound
+        self._describe(progress, [] if bound is None else [f"no policy is below {bound:.6g}"])
+
     def show_top(self, progress: TopProgress) -> None:
         """Describe a search for several plans as it is now."""
         parts = [f"{progress.found:,} plan{'' if progress.found == 1 else 's'} found", f"{progress.proven:,} proven"]
@@ -46,7 +51,7 @@ class ProgressLine:
             parts.append(f"no other is below {progress.lower_bound:.6g}")
         self._describe(progress, parts)
 
-    def _describe(self, progress: Progress | TopProgress, parts: list[str]) -> None:
+    def _describe(self, progress: SearchProgress, parts: list[str]) -> None:
         now = time.monotonic()
         if now - self.last < SECONDS_BETWEEN_LINES:
             return

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from statehtn.errors import UsageError
 from statehtn.risk import Attitude, Objective, Utility, utility_for
 from statehtn.settings import DEFAULT_PRECISION, PRECISION_OF_SUMS, objective_of
+
+if TYPE_CHECKING:
+    from statehtn.policies.settings import PolicySettings
 
 
 def add_inputs(parser: argparse.ArgumentParser) -> None:
@@ -58,6 +62,58 @@ def add_keep(agent: argparse._ActionsContainer) -> None:
         help=f"how close to the best counts as optimal, where prices do not add up; default: {DEFAULT_PRECISION:g} "
         f"(one-switch, exponentials, mean-deviation: {PRECISION_OF_SUMS:g})",
     )
+
+
+def add_policy_agent(parser: argparse.ArgumentParser) -> None:
+    """Add what policies are compared by; `policy_settings_in` reads it back."""
+    agent = parser.add_argument_group("the agent")
+    agent.add_argument(
+        "--objective",
+        metavar="TEXT",
+        help="what policies are compared by: 'success', the probability of being done, or an objective of 'statehtn "
+        "plan', such as 'deadline 25'; default: the expected cost",
+    )
+    _add_attitude(agent)
+    add_failing(agent)
+    agent.add_argument(
+        "--precision",
+        type=float,
+        metavar="P",
+        help=f"how close to the best counts as optimal; default: {DEFAULT_PRECISION:g}",
+    )
+
+
+def add_failing(agent: argparse._ActionsContainer) -> None:
+    """Add what failing costs a policy, and whether it is compared with a plan."""
+    agent.add_argument(
+        "--failure-cost",
+        type=float,
+        metavar="F",
+        help="what failing costs a policy on top of what was spent; the agent may give up anywhere. 'inf' is allowed "
+        "for deadline and quantile. Without it only policies count that are done with probability 1",
+    )
+    agent.add_argument(
+        "--adaptive",
+        action="store_true",
+        help="find a policy that looks at what was spent, and say what looking is worth, beside the best plan",
+    )
+
+
+def policy_settings_in(options: argparse.Namespace) -> PolicySettings:
+    """Return what the options ask of the search for a policy.
+
+    Raises:
+        UsageError: a number is out of its range, or the options do not go together.
+        UnsupportedError: there are no policies by this objective.
+    """
+    from statehtn.policies.settings import PolicySettings
+
+    if options.objective is not None:
+        for option, value in (("--attitude", options.attitude), ("--alpha", options.alpha)):
+            if value is not None:
+                raise UsageError(f"--objective and {option} are two ways to say one thing; leave out {option}")
+    how = options.failure_cost, options.adaptive, options.precision
+    return PolicySettings.of(options.objective, options.attitude, options.alpha, *how)
 
 
 def agent_of(options: argparse.Namespace) -> Utility:

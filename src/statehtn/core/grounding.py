@@ -107,6 +107,14 @@ class Grounding:
         """Return the names of objects."""
         return tuple(self.encoding.objects[number] for number in numbers)
 
+    def seen_facts(self) -> frozenset[tuple[str, ...]]:
+        """Return the facts that can change and that something reads: by these the search tells states apart."""
+        handle = self.handle
+        return frozenset(
+            (self.encoding.predicates[predicate], *self.objects(handle.fact_arguments(fact)))
+            for fact, predicate in enumerate(handle.fact_predicate)
+        )
+
     def to_model(self) -> GroundProblem:
         """Return the ground problem as Python objects, numbered as in the core; for reading, not for large problems."""
         return self._model

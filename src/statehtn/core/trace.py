@@ -6,7 +6,7 @@ A long plan repeats few ground actions and methods: what is the same wherever on
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from operator import itemgetter
 from typing import cast
@@ -14,6 +14,7 @@ from typing import cast
 import statehtn._relax as _relax
 from statehtn.collector import without_collector
 from statehtn.core.grounding import Grounding
+from statehtn.core.outcome_trace import outcomes_of
 from statehtn.core.schemes import Scheme
 from statehtn.limits import Limits
 from statehtn.model import CostLaw, Decomposition, Plan, Step
@@ -167,7 +168,11 @@ class TraceReader:
         with without_collector():
             bindings, children = self._decomposition(result, step_of, limits)
         root = tuple(bindings[parameter.name] for parameter in self._grounding.problem.parameters)
-        return Plan(tuple(steps), in_order(children), root, tuple(costs))
+        plan = Plan(tuple(steps), in_order(children), root, tuple(costs))
+        if not self._grounding.handle.has_outcomes:
+            return plan
+        outcomes = outcomes_of(self._grounding, [result.node(number).task for number in result.plan])
+        return replace(plan, outcomes=outcomes, seen=self._grounding.seen_facts())
 
     def _decomposition(
         self, result: _relax.SearchResult, step_of: dict[int, int], limits: Limits

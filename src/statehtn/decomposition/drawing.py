@@ -17,6 +17,8 @@ STYLES: dict[str, dict[str, Any]] = {
     "fact": {"shape": "ellipse", "style": "filled", "fillcolor": "#d9ead3"},
     "goal": {"shape": "ellipse", "style": "filled", "fillcolor": "#ffd966"},
     "action": {"shape": "box", "style": "filled", "fillcolor": "#fce5cd"},
+    "done": {"shape": "ellipse", "style": "filled", "fillcolor": "#d9ead3"},
+    "failed": {"shape": "ellipse", "style": "filled", "fillcolor": "#f4cccc"},
 }
 """How the nodes of each kind are drawn."""
 LINE = 28  # characters of a label before it is broken
@@ -75,14 +77,15 @@ def _dot(graph: nx.MultiDiGraph[str]) -> Any:
         "statehtn", graph_type="digraph", rankdir="TB", nodesep="0.15", ranksep="0.35", bgcolor="white"
     )
     dot.set_node_defaults(fontname="Helvetica", fontsize="10", margin="0.08,0.04", height="0.25", color="#666666")
-    dot.set_edge_defaults(color="#666666", arrowsize="0.6")
+    dot.set_edge_defaults(color="#666666", arrowsize="0.6", fontname="Helvetica", fontsize="9")
     kinds = []
     for node, attributes in graph.nodes(data=True):
         kind = str(attributes["kind"])
         kinds.append(kind)
         dot.add_node(pydot.Node(_quoted(node), label=_quoted(_label(attributes)), **STYLES[kind]))
-    for tail, head in graph.edges():
-        dot.add_edge(pydot.Edge(_quoted(tail), _quoted(head)))
+    for tail, head, condition in graph.edges(data="condition"):
+        label: dict[str, Any] = {} if not condition else {"label": _quoted(_lines(str(condition)))}
+        dot.add_edge(pydot.Edge(_quoted(tail), _quoted(head), **label))
     legend = pydot.Cluster(
         "legend", label=_quoted("kinds of nodes"), fontname="Helvetica", fontsize="9", color="#bbbbbb"
     )
@@ -101,7 +104,12 @@ def _label(attributes: dict[str, Any]) -> str:
         lines += [f"worth {value:.4g}"] if law.least < law.most else []
     elif value is not None:
         lines.append(f"at least {value:.4g}" if math.isfinite(value) else "impossible")
-    return "\n".join(part for line in lines for part in _broken(line) if part)
+    return _lines("\n".join(lines))
+
+
+def _lines(text: str) -> str:
+    """Return a text with long lines broken, and without empty ones."""
+    return "\n".join(part for line in text.split("\n") for part in _broken(line) if part)
 
 
 def _broken(line: str) -> list[str]:

@@ -7,10 +7,10 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from statehtn.display.policy_classes import Way, classes_of
 from statehtn.display.policy_words import Changes, budget, conditions, cost_text
 from statehtn.model.plan import Step
-from statehtn.model.policy_graph import Branch, End, PolicyGraph
-from statehtn.policies.components import components
+from statehtn.model.policy_graph import End, PolicyGraph
 
 MOST_NODES = 50_000
 """Of a policy that is outlined; larger ones are not to be read."""
@@ -78,20 +78,11 @@ def outline(graph: PolicyGraph) -> Outline:
     return _Outliner(graph).outline()
 
 
-@dataclass(frozen=True, slots=True)
-class _Way:
-    """A branch of an action, and the next action or end after it."""
-
-    branch: Branch
-    target: int
-    spent: float | None
-
-
 class _Outliner:
     def __init__(self, graph: PolicyGraph) -> None:
         self.graph = graph
         self.begin = graph.nodes[0].left
-        self.ways: dict[int, list[_Way]] = {}
+        self.ways: dict[int, list[Way]] = {}
         self.start = self._next(0)
         pending = [self.start]
         while pending:
@@ -100,14 +91,14 @@ class _Outliner:
                 continue
             decision = graph.nodes[node].decision
             branches = () if decision is None else decision.branches
-            self.ways[node] = [_Way(b, self._next(b.successor), self._spent(b.successor)) for b in branches]
+            self.ways[node] = [Way(b, self._next(b.successor), self._spent(b.successor)) for b in branches]
             pending += [way.target for way in self.ways[node]]
 
     def outline(self) -> Outline:
         """Return equal nodes as one place each."""
-        classes = self._classes(by_cost=False)
+        classes = classes_of(self.graph, self.ways, by_cost=False)
         if not self._has_thresholds(classes):
-            classes = self._classes(by_cost=True)
+            classes = classes_of(self.graph, self.ways, by_cost=True)
         members: dict[int, list[int]] = {}
         for node, name in classes.items():
             members.setdefault(name, []).append(node)
@@ -129,52 +120,6 @@ class _Outliner:
         left = self.graph.nodes[node].left
         return None if left is None or self.begin is None else self.begin - left
 
-    def _classes(self, by_cost: bool) -> dict[int, int]:
-        """Return a number for each node: equal where the same actions follow, on the same conditions.
-
-        Nodes that lead to each other are told apart until nothing changes; others follow from what they lead to.
-
-        Args:
-            by_cost: whether what a branch costs is a part of its condition.
-        """
-        nodes = list(self.ways)
-        index = {node: place for place, node in enumerate(nodes)}
-        found: dict[int, int] = {}
-        numbers: dict[object, int] = {}
-        order = components(len(nodes), lambda place: (index[way.target] for way in self.ways[nodes[place]]))
-        for number_of_component, component in enumerate(order):
-            group = [nodes[place] for place in component]
-            found.update(dict.fromkeys(group, -1))
-            count = 0
-            while True:
-                keys = {node: self._key(node, found, by_cost) for node in group}
-                if len(set(keys.values())) == count or len(group) == 1:
-                    break
-                count = len(set(keys.values()))
-                local = {key: -1 - place for place, key in enumerate(dict.fromkeys(keys.values()))}
-                found.update({node: local[key] for node, key in keys.items()})
-            is_loop = len(group) > 1 or any(way.target == group[0] for way in self.ways[group[0]])
-            for node, key in keys.items():
-                whole = (number_of_component, key) if is_loop else key  # a loop's keys speak of classes of its own
-                found[node] = numbers.setdefault(whole, len(numbers))
-        return found
-
-    def _key(self, node: int, classes: dict[int, int], by_cost: bool) -> object:
-        """Return what tells a node from others, as far as classes of its successors are known."""
-        here = self.graph.nodes[node]
-        step = None if here.decision is None else here.decision.action
-        outcomes: dict[Changes, tuple[float, float]] = {}
-        for way in self.ways[node]:
-            branch = way.branch
-            p, cost = outcomes.get((branch.added, branch.deleted), (0.0, 0.0))
-            outcomes[branch.added, branch.deleted] = p + branch.probability, cost + branch.probability * branch.law.mean
-        prices = frozenset((changes, f"{p:.9g}", f"{cost:.9g}") for changes, (p, cost) in outcomes.items())
-        leads = frozenset(
-            (way.branch.added, way.branch.deleted, str(way.branch.law) if by_cost else "", classes[way.target])
-            for way in self.ways[node]
-        )
-        return step, here.end, prices, leads
-
     def _has_thresholds(self, classes: dict[int, int]) -> bool:
         """Tell whether amounts spent tell the ways apart at each class: those of one lie below those of the next."""
         spent: dict[tuple[int, Changes], dict[int, list[float]]] = {}
@@ -188,13 +133,14 @@ class _Outliner:
     def _place(self, members: Sequence[int], classes: dict[int, int], places: dict[int, int]) -> Place:
         node = self.graph.nodes[members[0]]
         step = None if node.decision is None else node.decision.action
-        outcomes: dict[Changes, dict[int, list[_Way]]] = {}
+        outcomes: dict[Changes, dict[int, list[Way]]] = {}
         for member in members:
             for way in self.ways[member]:
                 changes = way.branch.added, way.branch.deleted
                 outcomes.setdefault(changes, {}).setdefault(classes[way.target], []).append(way)
         is_one = len({classes[way.target] for ways in outcomes.values() for some in ways.values() for way in some}) == 1
         texts = conditions(list(outcomes))
+        own = {id(way) for way in self.ways[members[0]]}
         choices: list[Choice] = []
         for changes, groups in outcomes.items():
             ordered = sorted(groups.items(), key=lambda group: min(way.spent or 0.0 for way in group[1]))
@@ -202,8 +148,7 @@ class _Outliner:
             for rank, (name, ways) in enumerate(ordered):
                 amount = budget(rank, limits) if len(ordered) > 1 else ""
                 condition = ", ".join(part for part in (texts[changes], amount) if part)
-                own = [way for way in ways if way in self.ways[members[0]]]
-                probability = math.fsum(way.branch.probability for way in own)
+                probability = math.fsum(way.branch.probability for way in ways if id(way) in own)
                 is_fixed = len(members) == 1 or len(ordered) == 1
                 choices.append(Choice("" if is_one else condition, probability if is_fixed else None, places[name]))
         merged = _merged(choices)

@@ -99,7 +99,8 @@ def _rows(steps: Sequence[PricedStep], has_prices: bool) -> list[tuple[str, ...]
     for index, priced in enumerate(steps, 1):
         if id(priced) not in texts:
             price = (number(priced.risk_cost),) if has_prices else ()
-            texts[id(priced)] = (str(priced.step), str(priced.law), number(priced.expected_cost), *price)
+            chance = "" if priced.probability == 1 else f"  counts on {number(priced.probability)}"
+            texts[id(priced)] = (f"{priced.step}{chance}", str(priced.law), number(priced.expected_cost), *price)
         rows.append((str(index), *texts[id(priced)]))
     return rows
 

@@ -13,6 +13,8 @@ from statehtn.expected import expect, items, whole_number
 from statehtn.model.chance import Scenario
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.scenario_cost import ScenarioCost, sampled_total, total_by_scenario, total_of
+from statehtn.model.formula import Fact
+from statehtn.model.plan_outcome import PlanOutcome
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -90,12 +92,16 @@ class Plan:
     `root_bindings` binds the initial network's parameters (empty where there are none, None where unknown).
     `costs` has the law of each step's cost in the state it is executed in; None where they are not known, as in a plan
     that was read from a file. Plans that only differ in it are equal.
+    `outcomes` has what a plan counts on that each step leads to, where actions have several outcomes; else None.
+    `seen` has the facts by which outcomes are told apart there.
     """
 
     steps: tuple[Step, ...] = ()
     roots: tuple[int | Decomposition, ...] = ()
     root_bindings: tuple[str, ...] | None = ()
     costs: tuple[CostLaw, ...] | None = field(default=None, compare=False, repr=False)
+    outcomes: tuple[PlanOutcome, ...] | None = field(default=None, repr=False)
+    seen: frozenset[Fact] | None = field(default=None, compare=False, repr=False)
 
     def __repr__(self) -> str:
         shown = [str(step) for step in self.steps[:MOST_SHOWN]]

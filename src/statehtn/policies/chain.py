@@ -31,8 +31,7 @@ class Chain:
     @cached_property
     def order(self) -> list[list[int]]:
         """Nodes that lead to each other together, each such component after all that it leads to."""
-        flat = self.flat
-        return components(len(flat), lambda node: (flat.successors[branch] for branch in flat.branches(node)))
+        return components(self.flat.first, self.flat.successors)
 
     def loops(self, component: Sequence[int]) -> bool:
         """Tell whether a run can come back to a component's nodes."""

@@ -2,57 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-
-Successors = Callable[[int], Iterable[int]]
+from collections.abc import Sequence
 
 
-def components(count: int, successors: Successors) -> list[list[int]]:
+def components(first: Sequence[int], successors: Sequence[int]) -> list[list[int]]:
     """Return the strongly connected components of a graph, each after all that it leads to.
 
     Tarjan's algorithm (1972) without recursion; networkx would need a gigabyte for the graph of a large policy.
 
     Args:
-        count: nodes are numbered from 0.
-        successors: the nodes that one leads to.
+        first: for each node the index of its first successor, and at the end the number of all.
+        successors: of all nodes, one node's after the other's.
     """
-    index: list[int] = [-1] * count  # in the order of the search; -1 where it has not been
-    low: list[int] = [0] * count
+    count = len(first) - 1
+    index = [-1] * count  # in the order of the search; -1 where it has not been
+    low = [0] * count
     is_open = bytearray(count)  # on the stack of nodes without a component
+    place = list(first[:count])  # of the next successor to look at
     found: list[list[int]] = []
     stack: list[int] = []
     visited = 0
     for root in range(count):
         if index[root] >= 0:
             continue
-        pending = [(root, iter(successors(root)))]
+        path = [root]
         index[root] = low[root] = visited
         visited += 1
         stack.append(root)
         is_open[root] = True
-        while pending:
-            node, others = pending[-1]
-            for other in others:
+        while path:
+            node = path[-1]
+            at, end = place[node], first[node + 1]
+            while at < end:
+                other = successors[at]
+                at += 1
                 if index[other] < 0:
+                    place[node] = at
                     index[other] = low[other] = visited
                     visited += 1
                     stack.append(other)
                     is_open[other] = True
-                    pending.append((other, iter(successors(other))))
+                    path.append(other)
                     break
-                if is_open[other]:
-                    low[node] = min(low[node], index[other])
+                if is_open[other] and index[other] < low[node]:
+                    low[node] = index[other]
             else:
-                pending.pop()
-                if pending:
-                    parent = pending[-1][0]
-                    low[parent] = min(low[parent], low[node])
+                path.pop()
+                if path and low[node] < low[path[-1]]:
+                    low[path[-1]] = low[node]
                 if low[node] == index[node]:
-                    place = len(stack) - 1
-                    while stack[place] != node:
-                        place -= 1
-                    found.append(stack[place:])
+                    found.append(_taken_off(stack, node))
                     for member in found[-1]:
                         is_open[member] = False
-                    del stack[place:]
     return found
+
+
+def _taken_off(stack: list[int], node: int) -> list[int]:
+    """Take the stack's end from a node on off it."""
+    if stack[-1] == node:
+        return [stack.pop()]
+    place = len(stack) - 1
+    while stack[place] != node:
+        place -= 1
+    taken = stack[place:]
+    del stack[place:]
+    return taken

@@ -107,6 +107,7 @@ class _Writer:
         yield "endmodule"
         yield ""
         yield 'rewards "cost"'
+        yield "  true : 0;"  # Storm takes no empty list
         yield from (f"  s={state} : {amount};" for (_, amount), state in self.paying.items())
         yield "endrewards"
         yield ""

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import accumulate
 
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
@@ -85,7 +86,8 @@ class _Walk:
                         free[other] = free.get(other, 0.0) + weight
             self.free.append(list(free.items()))
             self.paid.append(paid)
-        self.groups = components(len(flat), lambda node: (other for other, _ in self.free[node]))
+        first = [0, *accumulate(map(len, self.free))]
+        self.groups = components(first, [other for free in self.free for other, _ in free])
         self.rank = [0] * len(flat)  # of its group among those that cost nothing to reach from each other
         for rank, group in enumerate(self.groups):
             for node in group:

@@ -1,0 +1,88 @@
+"""All states and networks of a ground problem that can be reached, with the decisions in each, from the core."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import statehtn._relax as _relax
+from statehtn.core.grounding import STOPPED, Grounding
+from statehtn.errors import UnsupportedError
+from statehtn.limits import LimitReached, Limits
+from statehtn.model.cost.distribution import CostDistribution
+from statehtn.model.cost.law import CostLaw
+from statehtn.model.cost.scenario_cost import sum_of
+
+FREE = CostDistribution.certain(0.0)
+MOST_NODES = 1_000_000
+Edge = tuple[Fraction, CostLaw, int]
+"""What may come of a decision: its probability, the law of its cost, the node that it leads to."""
+
+
+@dataclass(frozen=True, slots=True)
+class PolicySpace:
+    """A Markov decision process: node 0 is where it begins.
+
+    Args:
+        choices: for each node its decisions, each with what may come of it.
+        done: for each node whether nothing is left to do there.
+    """
+
+    choices: list[list[list[Edge]]]
+    done: list[bool]
+
+
+def policy_space(grounding: Grounding, limits: Limits = Limits()) -> PolicySpace:
+    """Return all that can be reached, for agents that see what comes of actions, and what they cost.
+
+    Args:
+        grounding: the ground problem; its methods are whole.
+        limits: they hold.
+
+    Raises:
+        LimitReached: a limit was reached.
+        UnsupportedError: there are too many nodes; there may be infinitely many.
+    """
+    laws, parts = grounding.laws, grounding.part_laws
+    due_parts = [parts[slice(*grounding.handle.cost_parts(action))] for action in range(len(laws))]
+    free = [law.most == 0 and not due for law, due in zip(laws, due_parts, strict=True)]
+    seen = [law.least < law.most for law in laws], [law.least < law.most for law in parts]
+    seconds, memory_bytes, steps = limits.left()
+    space = _relax.PolicySpace(
+        grounding.handle,
+        free,
+        *seen,
+        most_nodes=MOST_NODES,
+        seconds=seconds,
+        memory_bytes=memory_bytes,
+        steps=steps,
+    )
+    if space.stop is not None:
+        raise LimitReached(STOPPED[space.stop])
+    if space.expanded_count < space.node_count:
+        raise UnsupportedError(
+            f"more than {MOST_NODES} states with their networks can be reached, perhaps infinitely many, too many to "
+            "be written; export the best policy instead (--policy)"
+        )
+    known: dict[tuple[int, tuple[int, ...]], CostLaw] = {}
+
+    def law_of(action: int | None, due: list[int]) -> CostLaw:
+        key = -1 if action is None else action, tuple(due)
+        if key not in known:
+            base = FREE if action is None else laws[action]
+            known[key] = sum_of([base, *(parts[part] for part in due)]) if due else base
+        return known[key]
+
+    choices: list[list[list[Edge]]] = []
+    for node in range(space.node_count):
+        limits.check()
+        choices.append(
+            [
+                [
+                    (Fraction(1) if action is None else grounding.probabilities[action], law_of(action, due), other)
+                    for other, action, due in outcomes
+                ]
+                for _, _, outcomes in space.decisions(node)
+            ]
+        )
+    return PolicySpace(choices, [not space.tasks(node) for node in range(space.node_count)])

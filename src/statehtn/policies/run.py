@@ -1,0 +1,171 @@
+"""The way of a run for a policy: read, ground, search, value, check. Whatever ends it, it ends in a result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from statehtn.core.grounding import Grounding
+from statehtn.core.policy_outcome import PolicyOutcome
+from statehtn.core.policy_search import search_policy
+from statehtn.core.progress import SearchProgress
+from statehtn.effort import Meter
+from statehtn.errors import UnsupportedError, UsageError
+from statehtn.found_plan import SECONDS_TO_VALIDATE
+from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.log import log
+from statehtn.model.status import Status
+from statehtn.policies.checking import check_policy
+from statehtn.policies.policy import Policy
+from statehtn.policies.result import Looking, PolicyResult
+from statehtn.policies.settings import PolicySettings
+from statehtn.risk import EntropicValueAtRisk, Success
+from statehtn.session import Session
+from statehtn.settings import Settings
+from statehtn.sweeps import solve
+
+PolicyProgress = Callable[[SearchProgress], None]
+
+
+def find_policy(
+    session: Session, settings: PolicySettings, limits: Limits, progress: PolicyProgress | None = None
+) -> PolicyResult:
+    """Search for a policy; return how the run ended.
+
+    Raises:
+        UsageError: what looking is worth is asked for, and actions have several outcomes.
+        UnsupportedError: costs hang together by hidden facts.
+        InputError: a probability of an outcome is none.
+    """
+    run = PolicyRun(session, settings, limits, progress)
+    try:
+        run.search()
+        run.check()
+        run.look()
+    except ENDINGS as ending:
+        run.stopped = status_of(ending)
+        log.info("the run ended: %s", run.stopped)
+    return run.result()
+
+
+class PolicyRun:
+    """A run for a policy, and how far it has come.
+
+    Args:
+        session: the problem.
+        settings: what is asked for.
+        limits: they hold for all of it.
+        progress: is called while the search goes on.
+    """
+
+    def __init__(
+        self, session: Session, settings: PolicySettings, limits: Limits, progress: PolicyProgress | None
+    ) -> None:
+        self.session = session
+        self.settings = settings
+        self.limits = limits
+        self.progress = progress
+        self.meter = Meter()
+        self.outcome: PolicyOutcome | None = None
+        self.policy: Policy | None = None
+        self.looking: Looking | None = None
+        self.stopped: Status | None = None
+        self.validated: str | None = None
+        self.has_outcomes = False
+
+    def search(self) -> None:
+        """Read and ground the problem, and search for a policy.
+
+        Raises:
+            UsageError, UnsupportedError: as `find_policy`.
+        """
+        problem = self.session.read(self.limits, self.meter)
+        self.has_outcomes = problem.domain.has_outcomes
+        if self.has_outcomes and self.settings.adaptive:
+            raise UsageError(
+                "what looking at costs is worth (--adaptive) compares a policy with a plan, and where actions have "
+                "several outcomes there is no plan that is certain to be done; leave it out: policies look at what was "
+                "spent wherever the objective asks for it"
+            )
+        grounding = self.session.ground_for_policies(self.limits, self.meter)
+        if grounding.has_scenarios:
+            raise UnsupportedError(
+                "costs of this problem depend on hidden facts, so that seeing a cost tells about others: there are no "
+                "policies for that (it is planning under partial observation); plan without, and plan again from where "
+                "the agent is"
+            )
+        with self.meter.timed("search"):
+            self.outcome = self._searched(grounding)
+        self.stopped = self.outcome.stopped
+        self.meter.note(search=self.outcome.effort)
+        if self.outcome.graph is not None:
+            how = self.settings.objective, self.settings.failure_cost, self.outcome.plan_of
+            self.policy = Policy(problem, self.outcome.graph, *how)
+
+    def _searched(self, grounding: Grounding) -> PolicyOutcome:
+        settings = self.settings
+        search = partial(
+            search_policy,
+            grounding,
+            failure_cost=settings.failure_cost,
+            adaptive=True,
+            precision=settings.precision,
+            limits=self.limits,
+            progress=self.progress,
+        )
+        if isinstance(settings.objective, EntropicValueAtRisk):
+            from statehtn.policies.evar import EvarSearch  # few runs need it
+
+            return EvarSearch(settings.objective, settings.failure_cost or 0.0, settings.precision, search).outcome()
+        return search(settings.objective)
+
+    def check(self) -> None:
+        """Check the policy against the lifted problem, as far as limits and Ctrl-C let it.
+
+        Raises:
+            InternalError: the policy is wrong.
+        """
+        if self.policy is None:
+            return
+        grounding = self.session.ground_for_policies(self.limits, self.meter)
+        left = self.limits.with_grace(SECONDS_TO_VALIDATE, is_over=self.stopped is not None)
+        try:
+            with self.meter.timed("validate"):
+                self.validated = str(check_policy(self.policy, grounding.seen_facts(), left))
+        except ENDINGS as ending:
+            self.stopped = self.stopped or status_of(ending)
+
+    def look(self) -> None:
+        """Find the best plan, which looks at no costs, where that is asked for."""
+        objective = self.settings.objective
+        if not self.settings.adaptive or self.policy is None or isinstance(objective, Success):
+            return
+        settings = Settings.of(objective, precision=self.settings.precision)
+        found = solve(self.session, settings, self.limits)
+        self.meter.note(search=self.meter.read().and_search(found.statistics).search)
+        value = self.result().value
+        if found.found is not None and value is not None:
+            worth = found.found.value - value
+            self.looking = Looking(found.found, found.status is Status.OPTIMAL, worth)
+
+    def result(self) -> PolicyResult:
+        """Return how the run ended."""
+        found = self.outcome
+        if found is None:
+            assert self.stopped is not None
+            return PolicyResult(self.stopped, self.settings, self.meter.read(), self.stopped)
+        is_success = isinstance(self.settings.objective, Success)
+        return PolicyResult(
+            found.status,
+            self.settings,
+            self.meter.read(),
+            self.stopped,
+            self.policy,
+            found.upper if is_success else found.lower,
+            found.reason,
+            found.most_success,
+            self.looking,
+            self.has_outcomes,
+            self.validated,
+            found.lower if is_success else found.upper,
+        )

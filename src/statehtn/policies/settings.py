@@ -1,0 +1,131 @@
+"""What is asked of the search for a policy: by which objective, what failing costs, and how near to the best."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from statehtn.errors import UnsupportedError, UsageError
+from statehtn.expected import number
+from statehtn.risk import (
+    Attitude,
+    AttitudeName,
+    Deadline,
+    MeanDeviation,
+    MeanVariance,
+    Objective,
+    ObjectiveLike,
+    Quantile,
+    Success,
+    agent_in,
+    problem_class,
+)
+from statehtn.settings import DEFAULT_PRECISION, objective_of, precision_of
+
+PolicyObjective = Objective | Success
+SUCCESS = str(Success())
+"""The text form of the objective that only policies have."""
+
+
+@dataclass(frozen=True, slots=True)
+class PolicySettings:
+    """By what policies are compared, and how; make one by `PolicySettings.of`, which checks it.
+
+    Args:
+        objective: what is minimised, or `success`.
+        failure_cost: what a run pays that fails, on top of what it has spent, in the domain's unit; may be infinite.
+            None: only policies count that are done with probability 1, or by `success` those most likely to be done.
+        adaptive: whether the best plan is looked for, too, which does not look at what was spent.
+        precision: how far from the best a policy may be that counts as optimal, as a part of max(1, value).
+    """
+
+    objective: PolicyObjective
+    failure_cost: float | None = None
+    adaptive: bool = False
+    precision: float = DEFAULT_PRECISION
+
+    @staticmethod
+    def of(
+        objective: ObjectiveLike | Success | None = None,
+        attitude: Attitude | AttitudeName | None = None,
+        alpha: float | None = None,
+        failure_cost: float | None = None,
+        adaptive: bool = False,
+        precision: float | None = None,
+    ) -> PolicySettings:
+        """Check the arguments, described at `statehtn.policy`.
+
+        Raises:
+            UsageError: a number is out of range, or they do not go together.
+            UnsupportedError: no policy can be found by this objective.
+        """
+        wanted = policy_objective(objective, attitude, alpha)
+        cost = None if failure_cost is None else _failure_cost(failure_cost, wanted)
+        if not isinstance(adaptive, bool):
+            raise UsageError(f"'adaptive' must be True or False, found {adaptive!r}")
+        if adaptive and isinstance(wanted, Success):
+            raise UsageError("what looking at costs is worth has no meaning by 'success', which looks at no costs")
+        return PolicySettings(wanted, cost, adaptive, precision_of(precision, wanted))  # type: ignore[arg-type]
+
+    def problem_class(self, has_outcomes: bool) -> str | None:
+        """Return the paper's RA-parameters of what is solved, such as `PSn0110`; None where it has no such class."""
+        if isinstance(self.objective, Success):
+            return None
+        found = problem_class("state", self.objective, "n" if has_outcomes else "1")
+        return None if found is None else str(found)
+
+    @property
+    def attitude(self) -> str | None:
+        """The agent's attitude: neutral, averse or seeking; None for any other objective."""
+        agent = None if isinstance(self.objective, Success) else agent_in(self.objective)
+        return None if agent is None else str(agent.attitude)
+
+    @property
+    def alpha(self) -> float | None:
+        """The curving coefficient of the exponential utility, per unit of cost; None for any other objective."""
+        agent = None if isinstance(self.objective, Success) else agent_in(self.objective)
+        return None if agent is None else agent.alpha
+
+
+def policy_objective(
+    wanted: ObjectiveLike | Success | None,
+    attitude: Attitude | AttitudeName | None = None,
+    alpha: float | None = None,
+) -> PolicyObjective:
+    """Return an objective from what a user gives, `success` included.
+
+    Raises:
+        UsageError: there is none like that, or it is given in two ways.
+        UnsupportedError: no policy can be found by it.
+    """
+    if isinstance(wanted, Success) or (isinstance(wanted, str) and wanted.strip() == SUCCESS):
+        if attitude is not None or alpha is not None:
+            raise UsageError("by 'success' policies are compared by the probability of being done, for any attitude")
+        return wanted if isinstance(wanted, Success) else Success()
+    found = objective_of(wanted, attitude, alpha)
+    if isinstance(found, MeanVariance | MeanDeviation):
+        raise UnsupportedError(
+            f"no policy can be found by '{found}': it may prefer a larger cost to a smaller one, so that the best "
+            "decision after one outcome depends on what was decided after the others; averse, cvar or one-switch "
+            "agents shun risk, too, and have policies"
+        )
+    return found
+
+
+def _failure_cost(given: float, objective: PolicyObjective) -> float:
+    """Return what failing costs.
+
+    Raises:
+        UsageError: it is negative, infinite where that says nothing, or not asked for.
+    """
+    cost = number(given, "the failure cost")
+    if isinstance(objective, Success):
+        raise UsageError("by 'success' failing has no cost: policies are compared by how likely it is")
+    if math.isnan(cost) or cost < 0:
+        raise UsageError(f"the failure cost must be at least 0, or 'inf', found {cost:g}")
+    if math.isinf(cost) and not isinstance(objective, Deadline | Quantile):
+        raise UsageError(
+            f"an infinite failure cost has a finite value for 'deadline' and 'quantile' only, not for '{objective}'; "
+            "without a failure cost only policies count that are done with probability 1"
+        )
+    return cost

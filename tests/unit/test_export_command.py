@@ -1,0 +1,50 @@
+"""`statehtn export --prism`: the decision process that can be reached, and the chain of a policy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from statehtn.cli.program import main
+
+GRIPPER = ("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p1.hddl")
+
+
+def values(file: Path, *formulas: str) -> list[float]:
+    stormpy = pytest.importorskip("stormpy", reason="Storm is not installed (extra 'check')")
+    program = stormpy.parse_prism_program(str(file))
+    found = []
+    for formula in formulas:
+        (wanted,) = stormpy.parse_properties(formula, program)
+        model = stormpy.build_model(program, [wanted])
+        result = stormpy.model_checking(model, wanted, only_initial_states=True)
+        found.append(float(result.get_value(model.initial_states[0])))
+    return found
+
+
+def test_the_decision_process(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "gripper.prism"
+    assert main(["export", *GRIPPER, "--prism", str(file)]) == 0
+    assert "states" in capsys.readouterr().out
+    assert "mdp" in file.read_text(encoding="utf-8").splitlines()
+    most, least, quick = values(file, 'Pmax=? [F "done"]', 'R{"cost"}min=? [F "done"]', 'Pmax=? [F{"cost"}<=5 "done"]')
+    assert most == pytest.approx(1)
+    assert quick == pytest.approx(0.75)
+    assert least == pytest.approx(5, rel=1e-5)
+
+
+def test_the_chain_of_the_best_policy(tmp_path: Path) -> None:
+    file = tmp_path / "policy.prism"
+    assert main(["export", *GRIPPER, "--policy", "--prism", str(file)]) == 0
+    assert "dtmc" in file.read_text(encoding="utf-8").splitlines()
+    (cost,) = values(file, 'R{"cost"}=? [F "done"]')
+    assert cost == pytest.approx(5, rel=1e-5)
+
+
+def test_no_policy_no_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "policy.prism"
+    arguments = ["export", *GRIPPER, "--policy", "--prism", str(file), "--objective", "averse 0.7"]
+    assert main(arguments) == 10
+    assert not file.exists()
+    assert "unsolvable" in capsys.readouterr().err

@@ -1,0 +1,175 @@
+"""`statehtn policy`, and `statehtn plan` where a problem needs a policy."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+import statehtn
+from statehtn import Status
+from statehtn.cli.program import main
+
+GRIPPER = ("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p1.hddl")
+VEHICLE = ("domains/av/domain.hddl", "domains/av/p1.hddl")
+TREE = [
+    "A: (suck ball)  cost 1",
+    "  if (in-hand ball) and not (hand-empty) and not (on-belt ball), 0.5:",
+    "    (place ball)  cost 3",
+    "    done",
+    "  if nothing changes, 0.5: go on at A",
+]
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    code = main(arguments)
+    shown = capsys.readouterr()
+    return code, shown.out, shown.err
+
+
+@pytest.mark.parametrize("command", ["policy", "plan"])
+def test_the_tree(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run(capsys, command, *GRIPPER, "--quiet")
+    assert code == 0
+    assert out.splitlines() == TREE
+
+
+@pytest.mark.parametrize("command", ["policy", "plan"])
+def test_the_object(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run(capsys, command, *GRIPPER, "--json", "--precision", "1e-10")
+    found = json.loads(out)
+    assert code == 0
+    assert (found["status"], found["problem_class"], found["objective"]) == ("optimal", "PSn0011", "neutral")
+    assert found["value"] == pytest.approx(5, abs=1e-9)
+    assert (found["success_probability"], found["reason"], found["stopped"]) == (1, None, None)
+    assert found["lower_bound"] <= found["value"] <= found["upper_bound"]
+    assert found["policy"]["nodes"][0]["decision"]["branches"]
+    assert "decompositions" in found["validated"]
+
+
+def test_averse_agents(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run(capsys, "policy", *GRIPPER, "--json", "--attitude", "averse", "--alpha", "0.3")
+    e = math.exp(0.3)
+    assert code == 0
+    assert json.loads(out)["value"] == pytest.approx(3 + math.log(0.5 * e / (1 - 0.5 * e)) / 0.3, abs=1e-9)
+    code, out, _ = run(capsys, "policy", *GRIPPER, "--json", "--attitude", "averse", "--alpha", "0.7")
+    found = json.loads(out)
+    assert (code, found["status"], found["value"], found["policy"]) == (10, "unsolvable", None, None)
+    assert "0.7" in found["reason"]
+
+
+def test_giving_up(capsys: pytest.CaptureFixture[str]) -> None:
+    """To give up at once costs less than what is to be expected."""
+    code, out, _ = run(capsys, "policy", *GRIPPER, "--json", "--failure-cost", "4")
+    found = json.loads(out)
+    assert code == 0
+    assert (found["value"], found["success_probability"], found["failure_cost"]) == (4, 0, 4)
+
+
+def test_looking_is_worth_something_before_a_deadline(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run(capsys, "policy", *VEHICLE, "--json", "--objective", "deadline 18", "--adaptive")
+    found = json.loads(out)
+    assert code == 0
+    assert found["looking"]["worth"] == pytest.approx(found["looking"]["plan_value"] - found["value"], abs=1e-12)
+    assert found["looking"]["worth"] >= -1e-9
+    plan = statehtn.plan(statehtn.read_hddl(*VEHICLE), objective="deadline 18")
+    assert found["looking"]["plan_value"] == pytest.approx(plan.value, abs=1e-9)
+
+
+@pytest.mark.parametrize("objective", ["neutral", "averse 0.3", "seeking 0.3"])
+def test_looking_is_worth_nothing_to_exponential_agents(objective: str) -> None:
+    problem = statehtn.read_hddl(*VEHICLE)
+    result = statehtn.policy(problem, objective=objective, adaptive=True)
+    assert result.status is Status.OPTIMAL
+    assert result.value == pytest.approx(statehtn.plan(problem, objective=objective).value, rel=1e-9)
+    assert "is worth nothing" in str(result)
+
+
+def test_pictures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("pydot")
+    file = tmp_path / "policy.dot"
+    code, _, _ = run(capsys, "policy", *GRIPPER, "--dot", str(file), "--quiet")
+    text = file.read_text(encoding="utf-8")
+    assert code == 0
+    assert "(suck ball)" in text
+    assert "nothing changes" in text
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "message"),
+    [
+        (["--objective", "mean-variance 1"], 31, "no policy can be found by 'mean-variance 1'"),
+        (["--failure-cost", "-1"], 2, "at least 0"),
+        (["--failure-cost", "inf"], 2, "'deadline' and 'quantile' only"),
+        (["--objective", "success", "--failure-cost", "3"], 2, "failing has no cost"),
+        (["--adaptive"], 2, "several outcomes"),
+        (["--objective", "success", "--alpha", "1"], 2, "leave out --alpha"),
+    ],
+)
+def test_what_has_no_policies(options: list[str], code: int, message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    found, out, err = run(capsys, "policy", *GRIPPER, *options)
+    assert (found, out) == (code, "")
+    assert message in err
+    assert err.count("\n") == 1
+
+
+def test_options_of_plans_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, err = run(capsys, "plan", *GRIPPER, "--search", "greedy")
+    assert code == 2
+    assert "--search is for plans" in err
+
+
+def test_plans_from_python_are_refused() -> None:
+    with pytest.raises(statehtn.UnsupportedError, match="statehtn.policy"):
+        statehtn.plan(statehtn.read_hddl(*GRIPPER))
+
+
+def test_a_time_limit(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run(capsys, "policy", *GRIPPER, "--json", "--time-limit", "1e-9")
+    assert (code, json.loads(out)["status"]) == (20, "time-limit")
+
+
+def test_counting_on_an_outcome() -> None:
+    """The plan holds the ball at the first try, which comes with probability 1/2."""
+    result = statehtn.plan(statehtn.read_hddl(*GRIPPER), objective="success-utility alpha=0.1")
+    assert result.status is Status.OPTIMAL
+    assert result.validated
+    assert [str(step.step) for step in result.steps] == ["(suck ball)", "(place ball)"]
+    assert [step.probability for step in result.steps] == [0.5, 1]
+    assert result.value == pytest.approx(-math.log(0.5 * math.exp(-0.1 * 4)), rel=1e-9)
+    assert result.problem_class == "PSn0112"
+
+
+def test_a_fixed_sequence() -> None:
+    """Two tries and placing fail where the first try holds, since the second cannot be executed then."""
+    problem = statehtn.read_hddl(*GRIPPER)
+    steps = [statehtn.Step("suck", ("ball",)), statehtn.Step("place", ("ball",))]
+    law = statehtn.sequence_cost(problem, steps, failure_cost=10)
+    assert law.failed == pytest.approx(0.5)
+    assert law.outcomes == ((0.5, 4), (0.5, 11))
+    twice = statehtn.sequence_cost(problem, [steps[0], *steps])
+    assert twice.failed == pytest.approx(0.75)
+
+
+def test_a_policy_is_asked() -> None:
+    result = statehtn.policy(statehtn.read_hddl(*GRIPPER))
+    policy = result.policy
+    assert policy is not None
+    start = policy.start
+    decision = policy.decide(result.policy.problem.initial_state, policy.network_of(start))
+    assert decision == start.decision
+    run = policy.trajectory(seed=1)
+    assert [taken.step.action for taken in run.steps][-1] == "place"
+    assert "pack" in str(policy.decomposition(run))
+    with pytest.raises(statehtn.UsageError, match="never gets there|no run of this policy"):
+        policy.decide([("torn",)], policy.network_of(start))
+
+
+def test_the_entropic_value_at_risk() -> None:
+    """The claw never holds here, so that there is one policy; its law says what it is worth."""
+    result = statehtn.policy(statehtn.read_hddl(*GRIPPER), objective="evar 0.9", precision=1e-3)
+    assert result.status is Status.OPTIMAL
+    assert result.value == pytest.approx(result.policy.cost_distribution().evar(0.9), rel=1e-12)
+    assert result.value - result.lower_bound <= 1e-3 * result.value
