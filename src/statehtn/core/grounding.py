@@ -245,7 +245,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
             f"the precondition or the cost of ({name}) falls into too many cases; can it be stated more simply?"
         )
     with watched(limits):
-        outcomes = Outcomes(encoding, handle)
+        outcomes = Outcomes(encoding, handle, limits)
         probabilities = outcomes.probabilities()
         laws, part_laws = CostLaws(encoding, handle, outcomes, limits).all()
     return Grounding(problem, encoding, handle, laws, part_laws, switches, probabilities)

@@ -9,6 +9,7 @@ from fractions import Fraction
 
 import statehtn._relax as _relax
 from statehtn.core.encode import Encoding
+from statehtn.limits import Limits
 from statehtn.model import Action
 from statehtn.model.cost.expressions import constant_value
 from statehtn.model.ground_outcome import branch_probabilities
@@ -39,11 +40,13 @@ class Outcomes:
     Args:
         encoding: what the core's numbers mean.
         handle: the ground problem in the core.
+        limits: of working them out.
     """
 
-    def __init__(self, encoding: Encoding, handle: _relax.GroundProblem) -> None:
+    def __init__(self, encoding: Encoding, handle: _relax.GroundProblem, limits: Limits) -> None:
         self._encoding = encoding
         self._handle = handle
+        self._limits = limits
         self._schemas = handle.action_schema
         self._of_blocks: dict[tuple[int, tuple[str, ...], int, tuple[str, ...]], tuple[Fraction, ...]] = {}
         self._of_records: dict[
@@ -77,12 +80,15 @@ class Outcomes:
 
         Raises:
             InputError: a probability is none; the message names the action.
+            LimitReached: a limit is reached.
         """
         certain = Fraction(1)
         if not self._encoding.problem.domain.has_outcomes:
             return (certain,) * len(self._schemas)
         found = []
         for action, schema in enumerate(self._schemas):
+            if action % 1024 == 0:
+                self._limits.check()
             lifted = self._encoding.actions[schema]
             if lifted is None or not lifted.outcomes:
                 found.append(certain)
