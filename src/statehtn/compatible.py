@@ -25,7 +25,9 @@ PRICE_SWITCHES = tuple(field.name for field in fields(SearchSwitches))
 """The refinements that the solver `state` can do without where the prices of actions add up."""
 LABEL_SWITCHES = tuple(field.name for field in fields(LabelSwitches))
 """Those where they do not."""
-SWITCHES = tuple(dict.fromkeys((*PRICE_SWITCHES, *LABEL_SWITCHES)))
+SWEEP_SWITCHES = ("chords",)
+"""Those of a sweep, beside its searches': bound all plans on an interval of alpha by chords, not by one end alone."""
+SWITCHES = tuple(dict.fromkeys((*PRICE_SWITCHES, *LABEL_SWITCHES, *SWEEP_SWITCHES)))
 """All of them."""
 NOTHING = "nothing"
 """What is left out of the complete search."""
@@ -71,6 +73,7 @@ def mismatch(
     if not prices_add_up(wanted, keep) and (reason := _needs_prices(search, wanted, keep)):
         return reason
     has = LABEL_SWITCHES if by_labels else PRICE_SWITCHES
+    has = (*has, *SWEEP_SWITCHES) if is_swept(wanted, keep) and search != "greedy" else has
     if lacking := [name for name in without if name in SWITCHES and name not in has]:
         return f"the search by '{wanted}' has no refinement '{lacking[0]}'; it has {', '.join(has)}"
     takes = heuristics_for(solver, search, wanted, keep)

@@ -12,6 +12,7 @@ coherent risk measure*, 2012). So the least one of any plan is the least value o
   end next to it: there its own line is level, so that no error remains for it, and where the interval is wide the
   others decide how good the bound is.
 - An interval whose bound is too low is split; the interval with the lowest bound is the next.
+- Without `chords` each run is at one end of an interval, and many more are needed: like `1 / sqrt(precision)`.
 
 Every plan that is found is a candidate, whose EVaR is exact.
 """
@@ -29,7 +30,7 @@ from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.status import Status
 from statehtn.pipeline import solutions
 from statehtn.result import Result
-from statehtn.risk import EntropicValueAtRisk, Neutral
+from statehtn.risk import Attitude, EntropicValueAtRisk, Exponential, Neutral
 from statehtn.session import ProgressCallback, Session
 from statehtn.settings import Settings
 from statehtn.sweeps.plan_curve import PlanCurve
@@ -136,7 +137,7 @@ class EvarSweep:
         todo = [Interval.of(0.0, highest, mean, mean + self.radius * highest)] if highest > 0 else []
         while todo and not self.is_proven(todo[0].bound) and self.runs.stopped is None:
             is_better = False
-            for result in self.refine(todo):
+            for result in self.halve(todo) if "chords" in self.settings.without else self.refine(todo):
                 is_better |= self.consider(result)
             self.bound = self.runs.bound = min(todo[0].bound, self.value)
             if is_better:
@@ -150,6 +151,21 @@ class EvarSweep:
         without = tuple(name for name in self.settings.without if name in LABEL_SWITCHES)
         settings = replace(self.settings, without=without)
         return solutions(self.runs.session, settings, self.runs.limits, self.runs.progress, every_plan=True)
+
+    def halve(self, todo: list[Interval]) -> Iterator[Result]:
+        """Bound all plans on the worst interval by one run; yield it, and put back what the interval becomes.
+
+        The plain way: on an interval of x no value is below `V(1/high) + c low`, since `V(1/x)` does not rise with x.
+        """
+        interval = heapq.heappop(todo)
+        low, high = interval.low, interval.high
+        result = self.runs.run(Exponential(Attitude.AVERSE, 1 / high))
+        yield result
+        known = interval.bound if result.lower_bound is None else result.lower_bound + self.radius * low
+        bound = max(interval.bound, known)
+        halves = [(low, high)] if self.is_proven(bound) else [(low, (low + high) / 2), ((low + high) / 2, high)]
+        for one in halves:
+            heapq.heappush(todo, Interval.of(*one, bound, bound))
 
     def refine(self, todo: list[Interval]) -> Iterator[Result]:
         """Bound all plans on the worst interval by two runs; yield these, and put back what the interval becomes."""

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import fields, replace
 
-from statehtn.compatible import heuristics_for
+from statehtn.compatible import SWEEP_SWITCHES, heuristics_for
 from statehtn.core.progress import Progress
 from statehtn.core.search import last_of
 from statehtn.effort import SearchEffort, Statistics
@@ -35,7 +35,8 @@ class Runs:
         self, session: Session, settings: Settings, limits: Limits, progress: ProgressCallback | None = None
     ) -> None:
         self.session = session
-        self.settings = settings
+        without = tuple(name for name in settings.without if name not in SWEEP_SWITCHES)
+        self.settings = replace(settings, without=without)
         self.limits = limits
         self.progress = progress
         self.started = time.monotonic()
