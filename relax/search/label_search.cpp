@@ -55,7 +55,9 @@ LabelSearchResult label_search(const AnalysedProblem& problem, Valuation& valuat
     LabelSearchResult result;
     const auto stop = run_within_limits([&]() -> std::optional<StopReason> {
         Progression progression(problem, free_actions(valuation, names, options), allowed(options), limits);
-        valuation.begin(progression.networks(), limits);
+        if (problem.solvable) {  // else there are no tasks
+            valuation.begin(progression.networks(), limits);
+        }
         result = LabelSearch(problem, valuation, names, options, progression, limits, statistics).run();
         return result.stop;
     });

@@ -111,6 +111,20 @@ def test_budgets_that_no_plan_keeps(vehicle: Problem) -> None:
 
 
 @pytest.mark.parametrize(
+    "text", ["mean-deviation 1", "one-switch alpha=1 tradeoff=1 wealth=3", "deadline 5", "neutral"]
+)
+def test_budgets_where_there_is_no_plan_at_all(text: str) -> None:
+    """No search with one price has found that out before: there is no task in the ground problem."""
+    domain = """(define (domain d) (:predicates (p)) (:task t :parameters ())
+      (:method m :parameters () :task (t) :ordered-subtasks (a)) (:action a :parameters () :precondition (p)))"""
+    grounding = ground(read_hddl_text(domain, "(define (problem x) (:domain d) (:htn :subtasks (t)) (:init))"))
+    assert not grounding.handle.solvable
+    switches = LabelSwitches(one_price_first=False)
+    *_, outcome = search_labels(grounding, objective(text), keep=(Keep(5.0, 0.5),), switches=switches)
+    assert outcome.status is Status.UNSOLVABLE
+
+
+@pytest.mark.parametrize(
     ("costs", "step"),
     [(("1", "2.5"), "0.5"), (("4", "6"), "2"), (("0", "0.3", "1.1"), "0.1"), (("0",), "1")],
 )
