@@ -19,6 +19,7 @@
 #include "id_caster.hpp"
 #include "python_limits.hpp"
 #include "relax/valuations/budgets.hpp"
+#include "relax/valuations/disutility_of_law.hpp"
 #include "relax/valuations/evar.hpp"
 #include "relax/valuations/expected_disutility.hpp"
 #include "relax/valuations/law_orders.hpp"
@@ -128,6 +129,21 @@ void bind_objectives(nb::module_& module) {
         .def(nb::init<double, double>(), "level"_a, "step"_a);
     nb::class_<relax::MeanCvarOfLaw, LawObjective>(module, "MeanCvarOfLaw")
         .def(nb::init<double, double, double>(), "level"_a, "weight"_a, "step"_a);
+    nb::class_<relax::DisutilityOfLaw, LawObjective>(module, "DisutilityOfLaw")
+        .def(
+            "__init__",
+            [](relax::DisutilityOfLaw* self, double linear, const std::vector<std::pair<double, double>>& terms,
+               double step) {
+                if (!(linear >= 0) || (linear == 0 && terms.empty())) {
+                    throw std::invalid_argument("there must be a term, and no negative weight");
+                }
+                std::vector<relax::ExponentialTerm> exponentials;
+                for (const auto& [slope, log_weight] : terms) {
+                    exponentials.push_back({slope, log_weight});
+                }
+                new (self) relax::DisutilityOfLaw(linear, std::move(exponentials), step);
+            },
+            "linear"_a, "terms"_a, "step"_a);
     nb::class_<relax::EvarOfLaw, LawObjective>(module, "EvarOfLaw")
         .def(nb::init<double, double>(), "level"_a, "step"_a);
 }

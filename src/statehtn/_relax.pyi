@@ -547,6 +547,9 @@ class QuantileOfLaw(LawObjective):
 class MeanCvarOfLaw(LawObjective):
     def __init__(self, level: float, weight: float, step: float) -> None: ...
 
+class DisutilityOfLaw(LawObjective):
+    def __init__(self, linear: float, terms: Sequence[tuple[float, float]], step: float) -> None: ...
+
 class EvarOfLaw(LawObjective):
     def __init__(self, level: float, step: float) -> None: ...
 

@@ -139,8 +139,10 @@ def test_the_plan_based_solver_agrees(problem: Problem, text: str) -> None:
 
 
 @SHARE
-@given(problem=correlated(), text=st.one_of(TEXTS, st.just("neutral")), keep=budgets())
+@given(problem=correlated(), text=st.one_of(TEXTS, st.just("neutral"), *EXPONENTIAL.values()), keep=budgets())
 def test_budgets_are_kept(problem: Problem, text: str, keep: tuple[Budget, ...]) -> None:
+    if text.startswith("exponentials") and "linear" not in text:
+        text = text.replace("exponentials", "exponentials linear=0")
     wanted = objective(text)
     outcome = search(problem, wanted, keep)
     check(problem, outcome, wanted, best_plan(problem, exact_objective(text), keep))

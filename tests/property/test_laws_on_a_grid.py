@@ -11,9 +11,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import statehtn._relax as _relax
+from statehtn.core.law_objectives import EXPONENTIAL
+from statehtn.risk.objectives import objective
 from tests.exact_laws import Laws
 from tests.exact_objectives import exact_objective
 from tests.grid_laws import Law, above, add, cvar, excess, laws, mean, quantile, shifted, summed
+from tests.lotteries import ALPHAS, FINITE, texts
 from tests.shares import share_of_examples
 
 SHARE = share_of_examples(3)
@@ -31,7 +34,8 @@ def objectives(draw: st.DrawFn) -> tuple[_relax.LawObjective, Value]:
     """An objective of the core, and its value by fractions. The step of the grid is a quarter."""
     step, level = Fraction(1, 4), Fraction(draw(st.sampled_from(("0.5", "0.9", "0.95", "0.05", "0.999"))))
     budget = draw(st.integers(0, 24))
-    match draw(st.sampled_from(("deadline", "overrun", "piecewise", "quantile", "cvar", "mean-cvar", "evar", "table"))):
+    kinds = ("deadline", "overrun", "piecewise", "quantile", "cvar", "mean-cvar", "evar", "exponential", "table")
+    match draw(st.sampled_from(kinds)):
         case "deadline":
             late = _relax.ExpectedDisutility(0.0, 0.0, [(float(budget), 1.0, 0.0)])
             return late, lambda law: above(law, budget)
@@ -64,6 +68,11 @@ def objectives(draw: st.DrawFn) -> tuple[_relax.LawObjective, Value]:
             exact = exact_objective(f"evar {float(level)!r}").value
             evar = _relax.EvarOfLaw(float(level), float(step))
             return evar, lambda law: exact(Laws().of({step * cost: p for cost, p in law.items()}))
+        case "exponential":
+            text = draw(st.one_of(texts(("averse ", "seeking "), ALPHAS), FINITE["one-switch"], FINITE["exponentials"]))
+            certain = EXPONENTIAL[type(objective(text))](objective(text), step, 0.0)
+            exact = exact_objective(text).value
+            return certain, lambda law: exact(Laws().of({step * cost: p for cost, p in law.items()}))
     table = list(accumulate(draw(st.lists(st.integers(0, 3), min_size=2, max_size=30)), initial=-5))
     tabled = _relax.TabulatedDisutility([float(value) for value in table])
     return tabled, expected(lambda cost: Fraction(table[min(cost, len(table) - 1)]))

@@ -16,12 +16,13 @@ from statehtn.limits import Limits
 from statehtn.risk.keep import Keep
 from statehtn.risk.objectives import objective
 from tests.all_laws import Budget
-from tests.lotteries import LAWS, SWEPT, budgets
+from tests.lotteries import ALPHAS, FINITE, LAWS, SWEPT, budgets, texts
 from tests.scenarios import correlated_lotteries, hedging_problems
 from tests.strategies import Draw
 
 NO_WORTH = 2**63 - 1
-TEXTS = st.one_of(*LAWS.values(), *SWEPT.values(), st.just("neutral"))
+EXPONENTIAL = (texts(("averse ", "seeking "), ALPHAS), FINITE["one-switch"], FINITE["exponentials"])
+TEXTS = st.one_of(*LAWS.values(), *SWEPT.values(), *EXPONENTIAL, st.just("neutral"))
 PROBLEMS = {
     "laws": st.one_of(hedging_problems(certain=False), correlated_lotteries()),
     "totals": st.one_of(hedging_problems(), correlated_lotteries(certain=True)),

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels
-from statehtn.core.law_objectives import OBJECTIVES
+from statehtn.core.law_objectives import EXPONENTIAL, OBJECTIVES
 from statehtn.core.price_labels import PriceLabels
 from statehtn.core.scenario_exponential_labels import ScenarioExponentialLabels
 from statehtn.core.scenario_labels import ScenarioLabels
@@ -35,12 +35,8 @@ def correlated_labels(
         )
     if isinstance(objective, Neutral) and not keep:
         return PriceLabels(grounding, objective, limits)
-    if isinstance(objective, Neutral) or type(objective) in OBJECTIVES:
-        return ScenarioLabels(grounding, objective, keep, switches, limits)
-    if isinstance(objective, Exponential | OneSwitch | Exponentials):
-        if keep:
-            raise UnsupportedError(
-                f"where costs hang together, there is no search by '{objective}' with budgets to keep"
-            )
+    if isinstance(objective, Exponential | OneSwitch | Exponentials) and not keep:
         return ScenarioExponentialLabels(grounding, objective, switches, limits)
+    if isinstance(objective, Neutral) or type(objective) in OBJECTIVES or type(objective) in EXPONENTIAL:
+        return ScenarioLabels(grounding, objective, keep, switches, limits)
     raise UnsupportedError(f"there is no search by the objective '{objective}' where costs hang together")

@@ -13,8 +13,12 @@ import statehtn._relax as _relax
 from statehtn.risk.callable_utility import CallableUtility
 from statehtn.risk.cvar import ConditionalValueAtRisk
 from statehtn.risk.deadline import Deadline
+from statehtn.risk.disutility import FiniteObjective
 from statehtn.risk.evar import EntropicValueAtRisk
+from statehtn.risk.exponential import Exponential
+from statehtn.risk.exponentials import Exponentials
 from statehtn.risk.mean_cvar import MeanCvar
+from statehtn.risk.one_switch import OneSwitch
 from statehtn.risk.overrun import Overrun
 from statehtn.risk.piecewise import Piecewise
 from statehtn.risk.quantile import Quantile
@@ -57,6 +61,14 @@ def _evar(objective: EntropicValueAtRisk, step: Fraction, _: float) -> _relax.La
     return _relax.EvarOfLaw(objective.level, float(step))
 
 
+def _exponential(objective: Exponential, step: Fraction, _: float) -> _relax.LawObjective:
+    return _relax.DisutilityOfLaw(0.0, [(objective.slope, 0.0)], float(step))
+
+
+def _exponentials(objective: FiniteObjective, step: Fraction, _: float) -> _relax.LawObjective:
+    return _relax.DisutilityOfLaw(objective.linear, objective.terms, float(step))
+
+
 def _callable(objective: CallableUtility, step: Fraction, reach: float) -> _relax.LawObjective:
     count = min(MOST_TABLED, math.ceil(reach / float(step)) + 1)
     table = [-objective.utility(float(step * number)) for number in range(count)]
@@ -77,3 +89,7 @@ OBJECTIVES: Mapping[type, Callable[[Any, Fraction, float], _relax.LawObjective]]
     }
 )
 """By the class of an objective: what it is in the core, for a step of the grid and a cost up to which it is tabled."""
+EXPONENTIAL: Mapping[type, Callable[[Any, Fraction, float], _relax.LawObjective]] = MappingProxyType(
+    {Exponential: _exponential, OneSwitch: _exponentials, Exponentials: _exponentials}
+)
+"""Those of which sums of prices say as much, unless plans have to keep budgets over scenarios."""

@@ -11,7 +11,7 @@ from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels, Support
 from statehtn.core.law_grid import MEAN_BITS, Grid, LawGrid, Outcomes
 from statehtn.core.law_labels import MOST_LIKELY, law_options
-from statehtn.core.law_objectives import MOST_TABLED, OBJECTIVES
+from statehtn.core.law_objectives import EXPONENTIAL, MOST_TABLED, OBJECTIVES
 from statehtn.core.pricing import ROUNDING, PricedProblem, RiskCost
 from statehtn.core.scenario_tangents import Tangent, tangent
 from statehtn.core.scenarios import all_are_certain, given_scenarios
@@ -42,7 +42,7 @@ class ScenarioLabels(Labels):
 
     Args:
         grounding: the ground problem, in which costs hang together.
-        objective: neutral, or one whose class is in `OBJECTIVES`.
+        objective: neutral, or one whose class is in `OBJECTIVES` or `EXPONENTIAL`.
         keep: budgets that plans are to keep, over all scenarios.
         switches: refinements to leave out.
         limits: they hold while laws are put on a grid.
@@ -161,7 +161,8 @@ class ScenarioLabels(Labels):
         step = self._grid.step
         if isinstance(self.objective, Neutral):
             return _relax.ExpectedDisutility(0.0, float(step), [(0.0, 0.0, 0.0)])
-        return OBJECTIVES[type(self.objective)](self.objective, step, self._reach or self._largest)
+        make = {**OBJECTIVES, **EXPONENTIAL}[type(self.objective)]
+        return make(self.objective, step, self._reach or self._largest)
 
     def _budgets_in_the_core(self) -> list[tuple[_relax.LawObjective, float]]:
         step = self._grid.step

@@ -10,9 +10,12 @@ from types import MappingProxyType
 from typing import Any
 
 from statehtn.risk.cvar import ConditionalValueAtRisk
+from statehtn.risk.exponential import Exponential
+from statehtn.risk.exponentials import Exponentials
 from statehtn.risk.mean_cvar import MeanCvar
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.objective import Objective
+from statehtn.risk.one_switch import OneSwitch
 from statehtn.risk.overrun import Overrun
 from statehtn.risk.piecewise import Piecewise
 
@@ -102,6 +105,9 @@ TANGENTS: Mapping[type, Callable[[Any, Sequence[float], Totals], Tangent]] = Map
         Overrun: _expected,
         Piecewise: _utilities,
         Neutral: _mean,
+        Exponential: _mean,  # no certainty equivalent of an averse agent is below the mean
+        OneSwitch: _mean,
+        Exponentials: _mean,
     }
 )
 """By the class of an objective that may be convex in the totals."""
