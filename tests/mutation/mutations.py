@@ -31,7 +31,8 @@ EXPONENTIALS = "tests/property/test_exponential_sums.py"
 DEVIATIONS = "tests/property/test_mean_deviation_sums.py"
 LAWS_ALONE = "tests/property/test_laws_on_a_grid.py"
 GRAPH_OF_LAWS = f"{LAWS}::test_no_plan_is_below_the_graph_of_laws"
-BUDGETS = (f"{LAWS}::test_budgets_are_kept", f"{OBJECTIVES}::test_the_best_plan_that_keeps_budgets")
+LABEL_RULES = "tests/unit/test_label_rules.py"
+BUDGETS = (LABEL_RULES, f"{LAWS}::test_budgets_are_kept", f"{OBJECTIVES}::test_the_best_plan_that_keeps_budgets")
 SCENARIOS_ALONE = f"{CORRELATED}::test_the_label_search_finds_the_best_plan_by_itself"
 
 
@@ -253,14 +254,14 @@ MUTATIONS = [
         "relax/valuations/exponential_sums.cpp",
         "return cover.covers(low, std::max(low, most_log(sums, to_come.least, 0) - log));",
         "return cover.covers(low, low);",
-        (EXPONENTIALS, FINITE_ALONE, OBJECTIVES),
+        (LABEL_RULES, EXPONENTIALS, FINITE_ALONE, OBJECTIVES),
     ),
     Mutation(
         "sums of exponentials: the rising ones are compared for the least cost to come alone",
         "relax/valuations/exponential_sums.cpp",
         "            log = std::max(log, most_log(right, to_come.least, j));\n",
         "",
-        (EXPONENTIALS, FINITE_ALONE, OBJECTIVES),
+        (LABEL_RULES, EXPONENTIALS, FINITE_ALONE, OBJECTIVES),
     ),
     Mutation(
         "mean and deviation: ways are compared for the least variance to come alone",
@@ -274,14 +275,14 @@ MUTATIONS = [
         "relax/valuations/law_valuation.cpp",
         "if (options.convex_order && objective.is_concave()) {",
         "if (options.convex_order) {",
-        (LAWS_ALONE, LAWS, OBJECTIVES),
+        (LABEL_RULES, LAWS_ALONE, LAWS, OBJECTIVES),
     ),
     Mutation(
         "laws: the stochastic order is asked about the least cost alone",
         "relax/valuations/law_orders.cpp",
         "        if (one.above_of(from) > other.above[j] + kProbabilityTolerance) {\n",
         "        if (j == 0 && one.above_of(from) > other.above[j] + kProbabilityTolerance) {\n",
-        (LAWS_ALONE, LAWS, OBJECTIVES),
+        (LABEL_RULES, LAWS_ALONE, LAWS, OBJECTIVES),
     ),
     Mutation(
         "bounds by laws: what is to come costs its mean for every objective",
@@ -291,10 +292,10 @@ MUTATIONS = [
         (LAWS, OBJECTIVES),
     ),
     Mutation(
-        "bounds by laws: the least cost to come is raised by the mean one",
+        "bounds by laws: beside the graph of laws what is to come costs its mean, too",
         "relax/valuations/law_valuation.cpp",
         "return std::max(least, graph != nullptr ? floor_for_mean(*graph, mean) : mean);",
-        "return std::max(least, graph != nullptr ? floor_for_mean(*graph, mean) : least + mean);",
+        "return std::max(least, graph != nullptr ? std::max(floor_for_mean(*graph, mean), mean) : mean);",
         (LAWS, OBJECTIVES),
     ),
     Mutation(
