@@ -301,7 +301,7 @@ MUTATIONS = [
     Mutation(
         "graph of laws: a task has the law of its first method",
         "relax/valuations/graph_of_laws.cpp",
-        "law = is_known ? highest(law, sum) : sum;",
+        "law = is_known ? highest_of(table_, law, sum) : sum;",
         "law = is_known ? law : sum;",
         (GRAPH_OF_LAWS, LAWS, OBJECTIVES),
     ),
