@@ -20,7 +20,7 @@ from statehtn import Problem, write_hddl
 from tests.brute_force import GaveUp
 
 DECIDED = 0.8  # of the examples
-ENOUGH_EXAMPLES = 100  # of fewer, now and then too many are undecided
+ENOUGH_EXAMPLES = 50  # of fewer, now and then too many are undecided
 DECIDED_OF_FEW = 0.5
 
 SUPPRESSED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]

@@ -17,9 +17,11 @@ from statehtn.model import Plan, Problem
 from statehtn.risk import Utility
 from tests.brute_force import LARGEST_NETWORK, all_plans, best_risk_costs
 from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_cost, must_have_ended, solve_top
+from tests.shares import share_of_examples
 from tests.strategies import grounding_switches, problems, utilities
 
 DISTINCT = ("sequence", "multiset")
+HALF = share_of_examples(2)
 SLACK = 1e-9
 
 
@@ -66,6 +68,7 @@ def test_the_best_plans(distinct: str, orders: tuple[str, ...], data: st.DataObj
 
 
 @pytest.mark.parametrize("distinct", DISTINCT)
+@HALF
 @given(problem=problems(), utility=utilities())
 def test_all_plans(distinct: str, problem: Problem, utility: Utility) -> None:
     plans = all_plans(problem, most=1500, largest_network=LARGEST_NETWORK)
@@ -83,6 +86,7 @@ def test_all_plans(distinct: str, problem: Problem, utility: Utility) -> None:
 
 
 @pytest.mark.parametrize("distinct", DISTINCT)
+@HALF
 @given(
     problem=problems(),
     utility=utilities(),

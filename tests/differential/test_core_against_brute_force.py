@@ -19,7 +19,10 @@ from statehtn.model import Problem
 from statehtn.risk import Utility, utility_for
 from tests.brute_force import GaveUp, optimal_risk_cost
 from tests.differential.oracles import ADMISSIBLE, LIMITS, close_to, must_cost, must_have_ended, solve
+from tests.shares import share_of_examples
 from tests.strategies import grounding_switches, problems, utilities
+
+HALF = share_of_examples(2)  # for each heuristic, search or refinement
 
 
 def check(problem: Problem, utility: Utility, result: Result) -> None:
@@ -44,6 +47,7 @@ def check(problem: Problem, utility: Utility, result: Result) -> None:
 
 
 @pytest.mark.parametrize("heuristic", ADMISSIBLE)
+@HALF
 @given(problem=problems(), utility=utilities())
 def test_optimum(heuristic: str, problem: Problem, utility: Utility) -> None:
     check(problem, utility, solve(problem, utility, heuristic=heuristic))
@@ -65,12 +69,14 @@ def test_anytime_search_ends_with_the_optimum(problem: Problem, utility: Utility
 
 
 @pytest.mark.parametrize("search", SEARCHES)
+@HALF
 @given(problem=problems(), utility=utilities())
 def test_every_search_keeps_what_its_status_says(search: str, problem: Problem, utility: Utility) -> None:
     check(problem, utility, solve(problem, utility, search=search))
 
 
 @pytest.mark.parametrize("switch", [field.name for field in fields(SearchSwitches)])
+@HALF
 @given(
     problem=problems(),
     utility=utilities(),

@@ -20,6 +20,7 @@ from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.risk import utility_for
 from tests.differential.oracles import LIMITS, close_to, must_have_ended
+from tests.shares import share_of_examples
 
 Tiles = Sequence[tuple[str, str]]
 
@@ -81,13 +82,14 @@ def correspondence(tiles: Tiles) -> int | None:
 words = st.text("ab", min_size=1, max_size=3)
 
 
+@share_of_examples(2)
 @given(tiles=st.lists(st.tuples(words, words), min_size=1, max_size=3))
 def test_correspondences(tiles: Tiles) -> None:
     problem = post(tiles)
     utility = utility_for("neutral")
+    optimum = correspondence(tiles)
     for heuristic in ("auto", "tdg"):
         outcome = find_plans(ground(problem), utility, heuristic=heuristic, limits=LIMITS)
-        optimum = correspondence(tiles)
         if outcome.status is Status.UNSOLVABLE:
             assert optimum is None
         if outcome.status is Status.OPTIMAL:

@@ -18,8 +18,10 @@ from statehtn.risk.cost_shifting import shifted_prices
 from tests.brute_force import GaveUp
 from tests.differential.oracles import ADMISSIBLE, close_to
 from tests.remaining_cost import explore
+from tests.shares import share_of_examples
 from tests.strategies import problems, utilities
 
+HALF = share_of_examples(2)  # for each heuristic
 SLACK = 1e-9  # relative: fixed-point prices, sums of doubles
 MOST_SUBSETS = 2**9
 OTHERS = [name for name, info in HEURISTICS.items() if info.safe and not info.admissible]
@@ -33,6 +35,7 @@ def estimate(value: float | None) -> float:
 
 @pytest.mark.parametrize("heuristic", ADMISSIBLE)
 @pytest.mark.parametrize("orders", [("total",), ("none", "partial")])
+@HALF
 @given(data=st.data(), utility=utilities())
 def test_never_above_the_remaining_cost(
     heuristic: str, orders: tuple[str, ...], data: st.DataObject, utility: Utility
@@ -56,6 +59,7 @@ def test_dead_ends_are_dead_ends(heuristic: str, problem: Problem, utility: Util
 
 
 @pytest.mark.parametrize("heuristic", CONSISTENT)
+@HALF
 @given(problem=problems(), utility=utilities())
 def test_f_never_falls(heuristic: str, problem: Problem, utility: Utility) -> None:
     grounding = ground(problem)

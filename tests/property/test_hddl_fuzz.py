@@ -60,7 +60,7 @@ FRAGMENTS = (
     ";", "define", "\u0130", "\u00a0", "\u2028", "\r", "\t", "''", '"', "\\", "object",
     "total-cost", "\ud7ff", "9" * 3000,
 )  # fmt: skip
-SECONDS = 60.0 if os.environ.get("CI") else 6.0
+SECONDS = 20.0 if os.environ.get("CI") else 6.0
 LARGEST = 100_000  # bytes of a file
 LONGEST = 10.0  # seconds for one pair of damaged files; a hundredth of it is usual
 Damage = Callable[[str, random.Random], str]
