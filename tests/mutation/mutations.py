@@ -95,7 +95,7 @@ MUTATIONS = [
         "dead methods: a first action is next although other tasks are unconstrained",
         "relax/progression/progression.cpp",
         "const bool comes_next = unconstrained_.size() == 1;",
-        "const bool comes_next = true;",
+        "const bool comes_next = !unconstrained_.empty();",
     ),
     Mutation(
         "potential: a list of tasks starts with its last one",
