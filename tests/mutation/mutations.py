@@ -267,7 +267,7 @@ MUTATIONS = [
         "mean and deviation: ways are compared for the least variance to come alone",
         "relax/valuations/mean_deviation.cpp",
         "return cover.covers(low, std::max(low, high));",
-        "return cover.covers(low, low);",
+        "return cover.covers(low, std::min(low, high));",
         (DEVIATIONS, FINITE_ALONE, OBJECTIVES),
     ),
     Mutation(
