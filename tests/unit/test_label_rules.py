@@ -45,6 +45,7 @@ def test_a_lower_mean_makes_up_for_more_risk_only_while_little_is_to_come(
 
 def test_less_expected_excess_is_not_enough_to_be_in_time() -> None:
     assert not is_as_good(LATE_AFTER_4, CERTAIN_5, {4: HALF, 7: HALF})
+    assert not is_as_good(_relax.QuantileOfLaw(0.5, 1.0), CERTAIN_5, {4: Fraction(3, 5), 10: Fraction(2, 5)})
     over = _relax.ExpectedDisutility(0.0, 0.0, [(4.0, 0.0, 1.0)])
     assert is_as_good(over, CERTAIN_5, {4: HALF, 7: HALF})
 
@@ -57,9 +58,12 @@ def test_the_stochastic_order_is_asked_about_every_cost_up_to_the_last() -> None
         assert is_as_good(late, {0: HALF, 2: HALF}, {1: Fraction(2, 5), 2: Fraction(3, 5)})
 
 
-BUDGET = """(define (domain d) (:functions (total-cost)) (:task go :parameters ())
+BUDGET = """(define (domain d) (:functions (total-cost)) (:task go :parameters ()) (:task end :parameters ())
   (:method a :parameters () :task (go) :ordered-subtasks (and (surely)))
   (:method b :parameters () :task (go) :ordered-subtasks (and (mostly)))
+  (:method c :parameters () :task (end) :ordered-subtasks (and (rest)))
+  (:method d :parameters () :task (end) :ordered-subtasks (and (wait)))
+  (:action wait :parameters () :effect (increase (total-cost) 6))
   (:action surely :parameters () :effect (increase (total-cost) 8))
   (:action mostly :parameters () :effect
     (probabilistic 0.9 (increase (total-cost) 7) 0.1 (increase (total-cost) 18)))
@@ -68,7 +72,7 @@ BUDGET = """(define (domain d) (:functions (total-cost)) (:task go :parameters (
 
 
 def budget_problem() -> Problem:
-    return read_hddl_text(BUDGET, "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (go) (rest))) (:init))")
+    return read_hddl_text(BUDGET, "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (go) (end))) (:init))")
 
 
 def test_a_budget_is_kept_by_the_way_that_leaves_enough_of_it() -> None:
