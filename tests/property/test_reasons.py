@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from itertools import islice
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,11 +14,13 @@ from statehtn.explanation.explanation import why_no_plan
 from statehtn.explanation.reason import SEEN
 from statehtn.explanation.reasons import NO_REASON, Reasoner
 from statehtn.explanation.relaxation import Relaxation, relaxations
+from statehtn.hddl import write_hddl
+from statehtn.inspection import check
 from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.model.status import Status
 from statehtn.risk import utility_for
-from tests.brute_force import Canonical, GaveUp, Node, Space, optimal_risk_cost
+from tests.brute_force import Canonical, Condition, GaveUp, Node, Space, optimal_risk_cost
 from tests.strategies import problems
 
 NEUTRAL = utility_for("neutral", None)
@@ -101,3 +105,32 @@ def test_reasons_have_roots_and_additions_help(problem: Problem, data: st.DataOb
         if len(additions) > 1:
             fewer = frozenset(additions) - {data.draw(st.sampled_from(additions))}
             assert not relaxations(with_additions(problem, fewer))[-1].is_solvable
+
+
+@given(problems())
+def test_what_check_says_of_a_problem_is_true(problem: Problem) -> None:
+    """What can never be executed or used is not in any reachable node, and what is in no plan is not in one."""
+    domain_text, problem_text = write_hddl(problem)
+    with TemporaryDirectory() as folder:
+        files = Path(folder) / "domain.hddl", Path(folder) / "problem.hddl"
+        for file, text in zip(files, (domain_text, problem_text), strict=True):
+            file.write_text(text, encoding="utf-8")
+        findings = check(*files)
+    never = {finding.about for finding in findings if finding.code in ("never-applies", "contradiction", "no-object")}
+    unplanned = never | {finding.about for finding in findings if finding.code in ("in-no-plan", "unused-task")}
+    for node in reachable(problem):
+        if node.last.step is not None:
+            assert ("action", node.last.step.action) not in never
+        for condition in node.network:  # of a method, which can be used where it holds
+            if isinstance(condition, Condition) and not condition.before:
+                holds = Space(problem).semantics.holds(condition.formula, dict(condition.bindings), node.state)
+                owners = {
+                    name for name, method in problem.domain.methods.items() if method.precondition == condition.formula
+                }
+                assert not holds or len(owners) != 1 or ("method", owners.pop()) not in never
+    plan = why_no_plan(problem, Limits(steps=3000)).plan
+    if plan is not None:
+        assert all(finding.code != "no-plan" for finding in findings)
+        assert all(("action", step.action) not in unplanned for step in plan.steps)
+        used = {("method", node.method) for root in plan.roots if not isinstance(root, int) for node in root.walk()}
+        assert used.isdisjoint(unplanned)

@@ -170,7 +170,8 @@ class Query:
             left = [part for part in left if part not in tests]
             relational = [part for part in left if part.is_relational]
             if not left:
-                yield binding
+                if not _contradict(chosen, binding):
+                    yield binding
             elif relational:
                 rows, part = min(((self._rows(part, binding), part) for part in relational), key=lambda it: len(it[0]))
                 rest = [other for other in left if other is not part]
@@ -205,6 +206,17 @@ class Query:
             if not self.has_answer(rest):
                 core = rest
         return [tuple(core)]
+
+
+def _contradict(parts: Sequence[Part], binding: Binding) -> bool:
+    """Tell whether one of the parts is the negation of another one under a binding."""
+    atoms = {_ground(part.formula, binding) for part in parts if isinstance(part.formula, Atom)}
+    denied = (part.formula.operand for part in parts if isinstance(part.formula, Not))
+    return any(_ground(operand, binding) in atoms for operand in denied if isinstance(operand, Atom))
+
+
+def _ground(atom: Atom, binding: Binding) -> tuple[str, ...]:
+    return (atom.predicate, *(binding.get(term, term) for term in atom.arguments))
 
 
 def _matched(

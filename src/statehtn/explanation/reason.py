@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from statehtn.model.formula import Fact
 
 SEEN = "see above"
+VALUES = "values"
+"""The kind of a reason that only says with which objects a condition can be had."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +44,7 @@ class Reason:
         why: in a few words.
         children: the reasons of that, each of which is enough where `any_of` is false.
         additions: what would do away with this reason alone; any of them.
-        kind: "task", "method", "action", "fact" or "condition".
+        kind: "task", "method", "action", "fact", "condition" or `VALUES`.
         name: of the task, method, action or predicate.
     """
 
@@ -55,10 +57,12 @@ class Reason:
 
     def roots(self) -> Iterator[Reason]:
         """Yield the reasons that have no further ones, in their order, without repetitions of what stands above."""
-        if not self.children and self.why != SEEN:
+        if all(child.kind == VALUES for child in self.children) and self.why != SEEN:
             yield self
+            return
         for child in self.children:
-            yield from child.roots()
+            if child.kind != VALUES:
+                yield from child.roots()
 
     def walk(self) -> Iterator[Reason]:
         """Yield this reason and all below it."""

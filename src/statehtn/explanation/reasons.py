@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import islice
 
 from statehtn.explanation.pattern import Pattern, pattern, unified
 from statehtn.explanation.query import Domains as QueryDomains
 from statehtn.explanation.query import Part, Query, parts_of, renamed
-from statehtn.explanation.reason import SEEN, Addition, Reason
+from statehtn.explanation.reason import SEEN, VALUES, Addition, Reason
 from statehtn.explanation.relaxation import Relaxation
 from statehtn.hddl.writer import formula_text
 from statehtn.limits import Limits
@@ -50,6 +51,25 @@ class Reasoner:
         if len(children) == 1:
             return children[0]
         return Reason("the initial network", "cannot be accomplished", children, kind="task")
+
+    def never(self, schema: Action | Method) -> Reason | None:
+        """Return why an action or a method can be used with no objects at all; None if nothing but its tasks do."""
+        if isinstance(schema, Action):
+            return self.condition(schema)
+        reason = self.method(schema, self._own(schema))
+        return None if reason.why == NO_REASON else reason
+
+    def condition(self, schema: Action | Method) -> Reason | None:
+        """Return why the conditions of an action or a method never hold, whatever its subtasks; None if they do."""
+        whole = schema.precondition
+        if isinstance(schema, Method):
+            whole = And((whole, schema.network.constraints))
+        own = self._own(schema)
+        children = self._needs(schema.parameters, own, whole, ())
+        if isinstance(schema, Method):
+            return _folded(f"method '{schema.name}'", children, "method", schema.name) if children else None
+        wanted = pattern(schema.name, [parameter.name for parameter in schema.parameters], own)
+        return _folded(str(wanted), children, "action", schema.name) if children else None
 
     def task(self, wanted: Pattern) -> Reason:
         """Return why a task cannot be accomplished, or an action not be executed."""
@@ -159,13 +179,15 @@ class Reasoner:
             narrowed = [
                 {**query.domains, **{name: (value,) for name, value in binding.items()}} for binding in bindings
             ]
+            # Where a condition and its negation exclude each other, either can be had with what the other one takes.
+            narrowed = [each for each in narrowed if not replace(query, domains=each).has_answer([part])]
             if not narrowed:
                 continue
             if part.formula is not None:
                 assert isinstance(part.formula, Atom)
                 rows = (pattern(part.formula.predicate, part.terms, domains) for domains in narrowed)
                 additions += [Addition((row.name, *next(row.rows(1)))) for row in rows]
-            children.append(Reason(text, f"can be had only with {_values(query, part)}"))
+            children.append(Reason(text, f"can be had only with {_values(query, part)}", kind=VALUES))
             child = self._of_part(part, narrowed[0])
             if child.children:
                 children.append(child)

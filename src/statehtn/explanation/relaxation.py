@@ -68,9 +68,9 @@ def _levels(problem: Problem, model: GroundProblem) -> Iterator[Relaxation]:
         literals = _literals(model, allowed)
         executable = {index for index in allowed | observers if _wanted(model.actions[index]) <= literals}
         methods = _usable(model, methods, executable)
+        reached = _asked_for(model, methods)
         current = _relaxation(problem, model, executable, methods)
         yield current
-        reached = _asked_for(model, methods)
         if not current.is_solvable or allowed <= reached:
             return
         allowed &= executable & reached

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 
 from statehtn.errors import Place
 from statehtn.hddl.expressions import Group, Node, Word, parse_group
@@ -91,5 +92,4 @@ def _matches(nodes: Sequence[Node], words: Sequence[str]) -> Iterator[tuple[Node
         found = [item.lower if isinstance(item, Word) else "" for item in node.items[: len(head)]]
         if found == head and (is_open or len(node.items) == len(head)):
             yield node, None
-        following: list[Node | None] = [*node.items[1:], None]
-        pending += reversed(list(zip(node.items, following, strict=True)))
+        pending += reversed(list(zip_longest(node.items, node.items[1:])))

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from os import PathLike
 
+from statehtn.errors import StateHtnError
 from statehtn.expected import file_name
 from statehtn.hddl.whole_reader import Reading, read_whole_hddl
 from statehtn.inspection.conditions import check_conditions
@@ -13,6 +14,7 @@ from statehtn.inspection.finding import Finding, in_order
 from statehtn.inspection.names import check_names
 from statehtn.inspection.orderings import check_orderings
 from statehtn.inspection.parameters import check_parameters
+from statehtn.inspection.reachability import check_reachability, reached, ungrounded, with_causes
 from statehtn.inspection.refusals import refusals
 from statehtn.inspection.subject import Subject
 from statehtn.inspection.tasks import check_tasks
@@ -58,13 +60,22 @@ def inspected(domain: str, problem: str | None, limits: Limits) -> list[Finding]
     """Return what is wrong or suspicious in files; as `check`."""
     with watched(limits):
         reading = read_whole_hddl(domain, problem, limits)
-        return in_order(_findings(reading))
+        subject = _subject(reading)
+        own = [finding for family in FAMILIES for finding in family(subject)] if subject is not None else []
+    if subject is None or subject.problem is None:
+        return in_order((*refusals(reading), *own))
+    try:
+        found = reached(subject.problem, limits)
+    except StateHtnError as error:
+        return in_order((*refusals(reading), *own, ungrounded(error)))
+    findings: Iterable[Finding] = (*own, *check_reachability(subject, found, limits))
+    if found.reason is not None:
+        findings = with_causes(findings, found.reason)
+    return in_order((*refusals(reading), *findings))
 
 
-def _findings(reading: Reading) -> Iterator[Finding]:
-    yield from refusals(reading)
+def _subject(reading: Reading) -> Subject | None:
+    """Return what has been read, if all of it has."""
     if not reading.is_whole or reading.domain is None or reading.places is None:
-        return
-    subject = Subject(reading.domain, reading.problem, reading.places)
-    for family in FAMILIES:
-        yield from family(subject)
+        return None
+    return Subject(reading.domain, reading.problem, reading.places)

@@ -18,24 +18,19 @@ def check_tasks(subject: Subject) -> Iterator[Finding]:
 
 
 def _without_methods(subject: Subject) -> Iterator[Finding]:
-    hopeless = hopeless_tasks(subject)
     for task, methods in subject.methods_of.items():
         if methods:
             continue
         users = [f"method '{method.name}'" for method in subject.methods_with[task]]
-        is_needed = task in subject.initial_tasks or any(
-            method.task in subject.initial_tasks and method.task in hopeless for method in subject.methods_with[task]
-        )
         message = f"task '{task}' has no method"
         if task in subject.initial_tasks:
-            message += ", and stands in the initial network: there is no plan"
+            message += ", and stands in the initial network"
         elif users:
             more = f" and {counted(len(users) - 1, 'other')}" if len(users) > 1 else ""
             message += f", so that {users[0]}{more} can never be used to the end"
-        level = Level.ERROR if is_needed else Level.WARNING if users else Level.NOTE
-        advice = (
-            "write a method for it, or leave it out where it stands" if users else "write a method, or leave it out"
-        )
+        is_used = bool(users) or task in subject.initial_tasks
+        level = Level.WARNING if is_used else Level.NOTE
+        advice = "write a method for it, or leave it out where it stands" if is_used else "write one, or leave it out"
         place = subject.places.declared("task", task)
         yield Finding(level, place, message, advice, "no-method", ("task", task))
 
@@ -53,18 +48,13 @@ def _endless(subject: Subject) -> Iterator[Finding]:
         told.update(circle)
         methods = subject.methods_of[task]
         what = f"each of the {len(methods)} methods" if len(methods) > 1 else f"its only method '{methods[0].name}'"
-        back = "back to it" if len(circle) == 1 else f"to a task that leads back to it ({' to '.join((*circle, task))})"
+        itself = all(task in {subtask.task for subtask in method.network.subtasks} for method in methods)
+        way = f" ({' to '.join((*circle, task))})" if len(circle) > 1 else ""
+        back = "back to it" if itself else f"back to it{way}, or to another task without an end"
         message = f"task '{task}' can never be decomposed to the end, as {what} leads {back}"
-        is_needed = any(name in endless for name in subject.initial_tasks)
-        level = Level.ERROR if is_needed else Level.WARNING
         place = subject.places.declared("method", methods[0].name)
         advice = f"write a method of '{task}' that ends the recursion"
-        yield Finding(level, place, message, advice, "endless-recursion", ("task", task))
-
-
-def hopeless_tasks(subject: Subject) -> set[str]:
-    """Return the compound tasks that have no finite decomposition into actions, whatever the problem."""
-    return _without_end(subject, set())
+        yield Finding(Level.WARNING, place, message, advice, "endless-recursion", ("task", task))
 
 
 def _without_end(subject: Subject, ending: set[str]) -> set[str]:
