@@ -13,21 +13,24 @@ from statehtn.core.grounding import PLAIN, ground
 from statehtn.decomposition import ground_task_decomposition_graph, task_decomposition_graph
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.reader import read_hddl_text
-from statehtn.model import GroundAction, Problem
+from statehtn.model import GroundAction, Problem, Step
 from statehtn.model.cost.mixture import Mixture, mixture_of
+from statehtn.model.cost.scenario_cost import ScenarioCost
 from statehtn.reference.search_node import initial_node
+from statehtn.semantics.outcomes import Transitions
+from statehtn.semantics.world import World
 
+DOMAIN = """(define (domain d) (:types block)
+  (:predicates (held ?b - block) (wet ?b - block) (icy)) (:functions (p-slip ?b - block) (fee) - number)
+  (:action lift :parameters (?b - block) :precondition (or (held ?b) (icy)))
+  (:action grasp :parameters (?b - block) :effect EFFECT))"""
 PROBLEM = """(define (problem p) (:domain d) (:objects a b - block)
   (:htn :ordered-subtasks (and (grasp a) (lift a))) (:init (= (p-slip a) 0.25) (= (p-slip b) 0.5) INIT))"""
 
 
 def read(effect: str, init: str = "") -> Problem:
     """Return a problem of grasping with this effect, and lifting what is held."""
-    domain = f"""(define (domain d) (:types block)
-  (:predicates (held ?b - block) (wet ?b - block) (icy)) (:functions (p-slip ?b - block) (fee) - number)
-  (:action lift :parameters (?b - block) :precondition (or (held ?b) (icy)))
-  (:action grasp :parameters (?b - block) :effect {effect}))"""
-    return read_hddl_text(domain, PROBLEM.replace("INIT", init))
+    return read_hddl_text(DOMAIN.replace("EFFECT", effect), PROBLEM.replace("INIT", init))
 
 
 def grasps(problem: Problem) -> list[GroundAction]:
@@ -73,6 +76,20 @@ def test_conditional_costs_of_outcomes_are_parts_of_their_actions() -> None:
     )
     assert str(held.cost) == "0"
     assert [str(part.cost) for part in held.cost_parts] == ["5"]
+
+
+def test_costs_of_outcomes_with_the_same_facts_hang_together_with_others() -> None:
+    effect = """(probabilistic 0.5 (and (held ?b) (when (icy) (increase (total-cost) 5)))
+        0.3 (and (held ?b) (increase (total-cost) 1)) 0.2 (wet ?b))"""
+    domain = DOMAIN.replace("EFFECT", effect).replace("(or (held ?b) (icy))", "(or (held ?b) (wet ?b))")
+    problem = read_hddl_text(domain, PROBLEM.replace("INIT", "(probabilistic 0.5 (icy) 0.5 ())"))
+    held, _ = grasps(problem)
+    assert isinstance(held.cost, ScenarioCost)
+    assert [str(law) for law in held.cost.laws] == ["1 w.p. 0.375, 5 w.p. 0.625", "0 w.p. 0.625, 1 w.p. 0.375"]
+    assert ground(problem).has_scenarios
+    found = Transitions(World(problem)).outcomes(Step("grasp", ("a",)), frozenset())
+    assert found is not None
+    assert held.cost in [outcome.law for outcome in found]
 
 
 @pytest.mark.parametrize(

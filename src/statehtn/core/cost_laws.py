@@ -23,8 +23,7 @@ from statehtn.model.cost.ground_cost import (
     sum_in_scenario,
     sum_of_blocks,
 )
-from statehtn.model.cost.mixture import mixture_of
-from statehtn.model.cost.scenario_cost import by_scenario
+from statehtn.model.cost.scenario_cost import by_scenario, mixed
 from statehtn.model.cost.unknown import MissingNumber, UnknownCost
 from statehtn.model.problem import Action, Fact
 
@@ -87,7 +86,7 @@ class CostLaws:
         chosen = [[pair for pair in parts if _is_due(*pair, combination)] for combination in combinations]
         laws = [self._law(number, schema, action, always + due) for due in chosen]
         weights = [float(self.outcomes.probability(number, combination)) for combination in combinations]
-        return mixture_of(weights, laws) if any(weights) else laws[0]
+        return mixed(weights, laws) if any(weights) else laws[0]
 
     def _law(self, number: int, schema: int, action: Action, parts: Parts) -> CostLaw:
         key = (schema, tuple(part for part, _ in parts))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.cost.mixture import mixture_of
+from statehtn.model.cost.scenario_cost import mixed
 from statehtn.model.ground_outcome import branch_probabilities
 from statehtn.model.outcome import OutcomeBlock
 from statehtn.model.problem import Action, Fact
@@ -155,7 +155,7 @@ def merged(
         StepOutcome(
             sum((probability for probability, _ in pairs), Fraction(0)),
             *changes,
-            mixture_of([float(probability) for probability, _ in pairs], [given for _, given in pairs]),
+            mixed([float(probability) for probability, _ in pairs], [given for _, given in pairs]),
         )
         for changes, pairs in ways.items()
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from statehtn.model.cost.mixture import mixture_of
+from statehtn.model.cost.scenario_cost import mixed
 from statehtn.model.plan import Step
 from statehtn.model.problem import Fact
 from statehtn.semantics.actions import GroundAction, LiftedAction, ground_action
@@ -82,5 +82,5 @@ def outcome_that_came(
         sum(outcome.probability for outcome in fitting),  # type: ignore[arg-type]
         likeliest.added,
         likeliest.deleted,
-        mixture_of(weights, [outcome.law for outcome in fitting]),
+        mixed(weights, [outcome.law for outcome in fitting]),
     )

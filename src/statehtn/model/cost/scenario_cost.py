@@ -11,7 +11,7 @@ from statehtn.errors import UsageError
 from statehtn.expected import did_you_mean, shown
 from statehtn.model.chance import Scenario
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.cost.mixture import Mixed
+from statehtn.model.cost.mixture import Mixed, mixture_of
 from statehtn.model.cost.sum import CostSum, total_cost
 
 if TYPE_CHECKING:
@@ -85,6 +85,11 @@ def sum_of(laws: Sequence[CostLaw]) -> CostLaw:
     if len(laws) == 1:
         return laws[0]
     return _in_each_scenario(laws, lambda given: CostSum(tuple(given)))
+
+
+def mixed(weights: Sequence[float], laws: Sequence[CostLaw]) -> CostLaw:
+    """Return the law of a cost that has one of several laws by chance, whatever the scenario; see `mixture_of`."""
+    return _in_each_scenario(laws, lambda given: mixture_of(weights, given))
 
 
 def total_of(laws: Iterable[CostLaw]) -> CostLaw:
