@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
@@ -120,9 +121,7 @@ class Result(RunResult[Settings]):
     @property
     def problem_class(self) -> str | None:
         """The paper's RA-parameters of what was solved, such as `PS10110`; None where the paper has no such class."""
-        name = self.settings.problem_class
-        counts_on_outcomes = self.found is not None and self.found.plan.outcomes is not None
-        return name if name is None or not counts_on_outcomes else f"{name[:2]}n{name[3:]}"
+        return class_counted_on(self.settings.problem_class, [] if self.found is None else [self.found.plan])
 
     @property
     def solver(self) -> str:
@@ -235,6 +234,13 @@ class Result(RunResult[Settings]):
         from statehtn.display.result import result_html
 
         return result_html(self)
+
+
+def class_counted_on(name: str | None, plans: Sequence[Plan]) -> str | None:
+    """Return the RA-parameters of a run whose plans may count on one of several outcomes of actions."""
+    if name is None or not any(plan.outcomes is not None for plan in plans):
+        return name
+    return f"{name[:2]}n{name[3:]}"
 
 
 def _asked(result: RunResult[Any]) -> tuple[Kept, ...]:

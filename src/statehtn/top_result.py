@@ -8,7 +8,7 @@ from typing import Any, overload
 
 from statehtn.counted import counted
 from statehtn.found_plan import FoundPlan
-from statehtn.result import RunResult
+from statehtn.result import RunResult, class_counted_on
 from statehtn.risk import agent_in, agent_name
 from statehtn.settings import TopSettings
 
@@ -79,6 +79,11 @@ class TopPlans(RunResult[TopSettings], Sequence[RankedPlan]):
     def __getitem__(self, index: slice) -> tuple[RankedPlan, ...]: ...
     def __getitem__(self, index: int | slice) -> RankedPlan | tuple[RankedPlan, ...]:
         return self.plans[index]
+
+    @property
+    def problem_class(self) -> str | None:
+        """The paper's RA-parameters of what was solved, such as `PS10110`; None where the paper has no such class."""
+        return class_counted_on(self.settings.problem_class, [ranked.plan for ranked in self.plans])
 
     @property
     def k(self) -> int:

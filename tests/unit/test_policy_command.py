@@ -173,3 +173,36 @@ def test_the_entropic_value_at_risk() -> None:
     assert result.status is Status.OPTIMAL
     assert result.value == pytest.approx(result.policy.cost_distribution().evar(0.9), rel=1e-12)
     assert result.value - result.lower_bound <= 1e-3 * result.value
+
+
+def test_results_show_themselves() -> None:
+    result = statehtn.policy(statehtn.read_hddl(*GRIPPER), failure_cost=100)
+    assert str(result).splitlines()[0] == "status: optimal (neutral)"
+    assert "value: 5" in str(result)
+    html = result._repr_html_()
+    assert "(suck ball)" in html
+    assert "status: optimal" in html
+    assert "value 5" in repr(result)
+
+
+def test_no_policy_says_why() -> None:
+    """The rover may be stuck, so that no policy is done for certain; the best chance is said."""
+    problem = statehtn.read_hddl("domains/exploring-rover/domain.hddl", "domains/exploring-rover/p3.hddl")
+    result = statehtn.policy(problem)
+    assert (result.status, result.policy, result.value) == (Status.UNSOLVABLE, None, None)
+    assert "probability 1" in (result.reason or "")
+    assert result.most_success == pytest.approx(0.9, abs=1e-6)
+    likeliest = statehtn.policy(problem, objective="success")
+    assert likeliest.value == pytest.approx(0.9, abs=1e-9)
+    assert "give up" in str(likeliest)
+    late = statehtn.policy(problem, objective="deadline 100", failure_cost=math.inf)
+    assert late.value == pytest.approx(0.1, abs=1e-9)
+
+
+def test_a_limit_leaves_a_policy_and_both_values() -> None:
+    problem = statehtn.read_hddl("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p4.hddl")
+    result = statehtn.policy(problem, objective="cvar 0.9", time_limit=1.5)
+    assert result.stopped in (None, Status.TIME_LIMIT)
+    if result.policy is not None:
+        assert result.lower_bound <= result.value + 1e-9
+        assert result.upper_bound == pytest.approx(result.value)

@@ -67,8 +67,7 @@ def _rows(result: PolicyResult) -> Labelled:
     rows.append(("expected cost", number(result.expected_cost)))
     if result.looking is not None:
         rows.append(("looking", _looking(result.looking)))
-    if result.validated is not None:
-        rows.append(("validated", result.validated))
+    rows.append(("validated", result.validated or "no: the run ended before the policy was checked"))
     return [*rows, *_bound_rows(result)]
 
 
