@@ -134,3 +134,21 @@ def test_what_check_says_of_a_problem_is_true(problem: Problem) -> None:
         assert all(("action", step.action) not in unplanned for step in plan.steps)
         used = {("method", node.method) for root in plan.roots if not isinstance(root, int) for node in root.walk()}
         assert used.isdisjoint(unplanned)
+
+
+@given(problems())
+def test_where_nothing_goes_on(problem: Problem) -> None:
+    """The steps to a deadlock can be executed, and what it lacks is so, and was changed by the step that is named."""
+    exploration = why_no_plan(problem, Limits(steps=3000)).exploration
+    for deadlock in exploration.deadlocks if exploration is not None else ():
+        states = [problem.initial_state]
+        for step in deadlock.steps:
+            state = Space(problem).semantics.execute(step.action, step.arguments, states[-1])
+            assert state is not None
+            states.append(state)
+        assert deadlock.lacks
+        for lack in deadlock.lacks:
+            assert (lack.fact in states[-1]) != lack.wanted
+            if lack.changed_by is not None:
+                assert (lack.fact in states[lack.changed_by]) != lack.wanted
+                assert (lack.fact in states[lack.changed_by - 1]) == lack.wanted

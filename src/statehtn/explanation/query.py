@@ -195,10 +195,10 @@ class Query:
     def cores(self) -> list[tuple[Part, ...]]:
         """Return why there is no answer: every part that has none alone, or else a smallest set that has none together.
 
-        Empty where a variable has no objects.
+        Every variable has objects.
         """
         alone: list[tuple[Part, ...]] = [(part,) for part in self.parts if not self.has_answer([part])]
-        if alone or any(not objects for objects in self.domains.values()):
+        if alone:
             return alone
         core = list(self.parts)
         for part in reversed(self.parts):

@@ -144,17 +144,17 @@ class Reasoner:
         self, parameters: Sequence[Parameter], domains: Domains, condition: Formula, subtasks: Sequence[Subtask]
     ) -> tuple[Reason, ...]:
         """Return why no binding gives a condition and subtasks; nothing if some binding does on every level."""
-        for parameter in parameters:
-            if not domains[parameter.name]:
-                kind = " or ".join(f"'{name}'" for name in parameter.types)
-                additions = tuple(Addition(type=name) for name in parameter.types)
-                return (Reason(f"an object of type {kind} for {parameter.name}", "there is none", (), additions),)
         if len(self._told) > MOST_REASONS or len(self._open) > DEEPEST:
             return (Reason("more", "it goes on like this, and is left out here"),)
         types = {parameter.name: parameter.types for parameter in parameters}
         parts = [part for part in parts_of(condition, types) if part.formula != TRUE]
         parts += [Part(task=subtask) for subtask in subtasks]
         whole = {**{name: self.problem.objects_of(kinds) for name, kinds in types.items()}, **domains}
+        for name, kinds in types.items():  # those of 'exists', too
+            if not whole[name]:
+                words = " or ".join(f"'{kind}'" for kind in kinds)
+                additions = tuple(Addition(type=kind) for kind in kinds)
+                return (Reason(f"an object of type {words} for {name}", "there is none", (), additions),)
         for level in self.levels:
             query = Query(whole, tuple(parts), level, self.limits)
             if not query.has_answer():
