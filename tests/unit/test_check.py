@@ -116,3 +116,26 @@ def test_the_page_has_every_code() -> None:
     page = (ROOT / "docs" / "check.md").read_text(encoding="utf-8")
     for code, meaning in CODES.items():
         assert f"| `{code}` | {meaning} |" in page
+
+
+OUTCOMES = """(define (domain d)
+  (:types t)
+  (:predicates (dry ?x - t) (clean ?x - t) (broken ?x - t))
+  (:task tidy :parameters (?x - t))
+  (:method m :parameters (?x - t) :task (tidy ?x) :ordered-subtasks (and (wash ?x) (hang ?x) (look ?x)))
+  (:action wash :parameters (?x - t) :precondition (not (broken ?x))
+    :effect (probabilistic 0.5 (clean ?x) 0.5 (broken ?x)))
+  (:action hang :parameters (?x - t) :precondition (clean ?x)
+    :effect (probabilistic 0.5 (dry ?x) 0.5 (not (clean ?x))))
+  (:action look :parameters (?x - t) :precondition (and (dry ?x) (not (clean ?x))) :effect ()))
+"""
+
+
+def test_whatever_an_outcome_brings_can_come() -> None:
+    Path("domain.hddl").write_text(OUTCOMES, encoding="utf-8")
+    problem = "(define (problem p) (:domain d) (:objects a - t) (:htn :subtasks (tidy a)) (:init))"
+    Path("problem.hddl").write_text(problem, encoding="utf-8")
+    assert check("domain.hddl", "problem.hddl") == []
+    Path("domain.hddl").write_text(OUTCOMES.replace("0.5 (dry ?x)", "0.5 (clean ?x)"), encoding="utf-8")
+    first = check("domain.hddl", "problem.hddl")[0]
+    assert (first.level, first.code, first.about) == (Level.ERROR, "never-true", ("fact", "dry"))

@@ -3,7 +3,7 @@
 The grounder keeps what relaxed reachability reaches and the initial network leads to. Here the initial network leads to
 every action and every task, any number of times, so that what is left is what is reachable at all. Observers, actions
 with one fact as their precondition, tell which facts can become true, and which facts of the initial state can become
-false.
+false. Of several outcomes of an action any may come.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from statehtn.model import TRUE, Action, And, Atom, Method, Not, Parameter, Prob
 from statehtn.model.formula import Formula
 
 ANYTHING, NETWORK, GOAL = "any task", "the initial network", "the goal"
-SEE, MISS, INITIALLY = "see ", "miss ", "initially "
+SEE, MISS, INITIALLY, UNDO = "see ", "miss ", "initially ", "undo "
 """Prefixes of names; no name that is read has a space."""
 
 
 def open_problem(problem: Problem) -> Problem:
     """Return the problem that asks for everything, without costs; its own network is the task `NETWORK`."""
     domain = problem.domain
-    changing = {effect.atom.predicate for action in domain.actions.values() for effect in action.effects}
+    changing = {effect.atom.predicate for action in domain.actions.values() for effect in action.all_effects}
     initially = {name: replace(domain.predicates[name], name=INITIALLY + name) for name in domain.predicates}
     observers = [action for name in changing for action in _observers(domain.predicates[name])]
     goal = Action(GOAL, (), problem.goal)
-    actions = {name: replace(action, costs=()) for name, action in domain.actions.items()}
-    actions.update((action.name, action) for action in (*observers, goal))
+    own_actions = (part for action in domain.actions.values() for part in _without_chance(action))
+    actions = {action.name: action for action in (*own_actions, *observers, goal)}
     tasks = {**domain.tasks, ANYTHING: Signature(ANYTHING), NETWORK: Signature(NETWORK)}
     own = _with_goal(problem)
     methods = {**domain.methods, NETWORK: Method(NETWORK, problem.parameters, NETWORK, (), own)}
@@ -60,6 +60,21 @@ def _with_goal(problem: Problem) -> TaskNetwork:
         subtasks=(*network.subtasks, Subtask(GOAL, GOAL)),
         ordering=(*network.ordering, *((index, last) for index in range(last))),
     )
+
+
+def _without_chance(action: Action) -> Iterator[Action]:
+    """Yield an action without costs; where it has several outcomes, it adds whatever one of them adds.
+
+    What the outcomes delete another action deletes: in one action what another outcome adds would win over it.
+    """
+    if not action.outcomes:
+        yield replace(action, costs=())
+        return
+    adds = tuple(effect for effect in action.all_effects if effect.positive)
+    deletes = tuple(effect for effect in action.all_effects if not effect.positive)
+    yield Action(action.name, action.parameters, action.precondition, adds)
+    if deletes:
+        yield Action(UNDO + action.name, action.parameters, action.precondition, deletes)
 
 
 def _observers(signature: Signature) -> Iterator[Action]:

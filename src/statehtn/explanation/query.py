@@ -13,7 +13,7 @@ from statehtn.model import And, Atom, Equals, Exists, Forall, Formula, Not, OfTy
 from statehtn.model.formula import free_variables, is_variable
 
 Binding = dict[str, str]
-Domains = Mapping[str, Sequence[str]]
+Domains = Mapping[str, tuple[str, ...]]
 """The objects that each variable may stand for."""
 CHECK_EVERY = 1024
 

@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property
-from itertools import islice
+from itertools import islice, product
 
+from statehtn.explanation.lookup import Lookup
 from statehtn.explanation.pattern import Pattern, pattern, unified
-from statehtn.explanation.query import Domains as QueryDomains
-from statehtn.explanation.query import Part, Query, parts_of, renamed
+from statehtn.explanation.query import Domains, Part, Query, parts_of
 from statehtn.explanation.reason import SEEN, VALUES, Addition, Reason
+from statehtn.explanation.reason_words import NO_REASON, folded, none_of, text_of, values_of
 from statehtn.explanation.relaxation import Relaxation
-from statehtn.hddl.writer import formula_text
 from statehtn.limits import Limits
-from statehtn.model import TRUE, Action, And, Atom, Effect, Formula, Method, Not, Parameter, Subtask
+from statehtn.model import TRUE, Action, And, Atom, Effect, Forall, Formula, Method, Not, Or, Parameter, Subtask
 
 MOST_ADDITIONS = 8
 """Additions that one reason names."""
-MOST_VALUES = 3
-"""Objects that are named where several are possible."""
 DEEPEST = 60
 """Reasons below each other; nobody reads further."""
 MOST_REASONS = 300
-Domains = dict[str, tuple[str, ...]]
+MOST_OBJECTS = 200
+"""Combinations of objects for which a condition on all of them is looked at."""
 
 
 class Reasoner:
@@ -38,6 +35,7 @@ class Reasoner:
         self.levels = levels
         self.limits = limits
         self.problem = levels[0].problem
+        self._lookup = Lookup(self.problem)
         self._told: set[tuple[object, ...]] = set()
         self._open: list[tuple[object, ...]] = []
 
@@ -67,9 +65,9 @@ class Reasoner:
         own = self._own(schema)
         children = self._needs(schema.parameters, own, whole, ())
         if isinstance(schema, Method):
-            return _folded(f"method '{schema.name}'", children, "method", schema.name) if children else None
+            return folded(f"method '{schema.name}'", children, "method", schema.name) if children else None
         wanted = pattern(schema.name, [parameter.name for parameter in schema.parameters], own)
-        return _folded(str(wanted), children, "action", schema.name) if children else None
+        return folded(str(wanted), children, "action", schema.name) if children else None
 
     def task(self, wanted: Pattern) -> Reason:
         """Return why a task cannot be accomplished, or an action not be executed."""
@@ -82,23 +80,23 @@ class Reasoner:
             return self.action(action, domains)
         if (before := self._told_before("task", wanted)) is not None:
             return before
-        methods = self._methods_of[wanted.name]
+        methods = self._lookup.methods_of[wanted.name]
         with_these = [(method, unified(method.arguments, wanted, self._own(method))) for method in methods]
         self._open.append(("task", wanted.key))
         children = tuple(self.method(method, domains) for method, domains in with_these if domains is not None)
         self._open.pop()
         why = "it has no method"
         if methods and not children:
-            why = _none_of(len(methods), "its only method is not", "none of its {} methods is", "for these arguments")
+            why = none_of(len(methods), "its only method is not", "none of its {} methods is", "for these arguments")
         elif methods:
-            why = _none_of(len(children), "its only method cannot", "none of its {} methods can", "be used")
+            why = none_of(len(children), "its only method cannot", "none of its {} methods can", "be used")
         return Reason(str(wanted), why, children, kind="task", name=wanted.name)
 
     def method(self, method: Method, domains: Domains) -> Reason:
         """Return why a method cannot be used with variables that stand for such objects."""
         condition = And((method.precondition, method.network.constraints))
         children = self._needs(method.parameters, domains, condition, method.network.subtasks)
-        return _folded(f"method '{method.name}'", children, "method", method.name)
+        return folded(f"method '{method.name}'", children, "method", method.name)
 
     def action(self, action: Action, domains: Domains, condition: Formula = TRUE) -> Reason:
         """Return why an action cannot be executed with variables that stand for such objects.
@@ -117,7 +115,7 @@ class Reasoner:
             self._open.pop()
             return reason
         self._open.pop()
-        return _folded(str(wanted), children, "action", action.name)
+        return folded(str(wanted), children, "action", action.name)
 
     def fact(self, wanted: Pattern) -> Reason:
         """Return why a fact cannot be made true."""
@@ -125,7 +123,7 @@ class Reasoner:
         if (before := self._told_before("fact", wanted)) is not None:
             return Reason(before.what, before.why, (), additions, "fact", wanted.name)
         achievers: list[tuple[Action, Domains, Effect]] = []
-        for action, effect in self._achievers[wanted.name]:
+        for action, effect in self._lookup.achievers[wanted.name]:
             own = self._domains((*action.parameters, *effect.parameters))
             domains = unified(effect.atom.arguments, wanted, own)
             if domains is not None and all(action is not other for other, _, _ in achievers):
@@ -137,7 +135,7 @@ class Reasoner:
         children = tuple(self.action(action, domains, effect.condition) for action, domains, effect in achievers)
         self._open.pop()
         only, none = "the only action that makes it true cannot", "none of the {} actions that make it true can"
-        why = f"':init' does not state it, and {_none_of(len(children), only, none, 'be executed')}"
+        why = f"':init' does not state it, and {none_of(len(children), only, none, 'be executed')}"
         return Reason(str(wanted), why, children, additions, "fact", wanted.name)
 
     def _needs(
@@ -166,7 +164,7 @@ class Reasoner:
         if len(core) == 1:
             yield self._of_part(core[0], query.domains)
             return
-        texts = [_text(part, query.domains) for part in core]
+        texts = [text_of(part, query.domains) for part in core]
         shared = sorted({name for part in core for name in part.variables if len(query.domains[name]) > 1})
         objects = f"no {', '.join(shared)}" if shared else "nothing"
         children: list[Reason] = []
@@ -187,14 +185,14 @@ class Reasoner:
                 assert isinstance(part.formula, Atom)
                 rows = (pattern(part.formula.predicate, part.terms, domains) for domains in narrowed)
                 additions += [Addition((row.name, *next(row.rows(1)))) for row in rows]
-            children.append(Reason(text, f"can be had only with {_values(query, part)}", kind=VALUES))
+            children.append(Reason(text, f"can be had only with {values_of(query, part)}", kind=VALUES))
             child = self._of_part(part, narrowed[0])
             if child.children:
                 children.append(child)
         why = f"{objects} goes together with all of these"
         yield Reason(" and ".join(texts), why, tuple(children), tuple(dict.fromkeys(additions))[:MOST_ADDITIONS])
 
-    def _of_part(self, part: Part, domains: QueryDomains) -> Reason:
+    def _of_part(self, part: Part, domains: Domains) -> Reason:
         if part.task is not None:
             return self.task(pattern(part.task.task, part.terms, domains))
         match part.formula:
@@ -202,9 +200,25 @@ class Reasoner:
                 return self.fact(pattern(predicate, terms, domains))
             case Not(Atom()):
                 return Reason(
-                    _text(part, domains), "':init' states the opposite, and no action that can be executed changes it"
+                    text_of(part, domains), "':init' states the opposite, and no action that can be executed changes it"
                 )
-        return Reason(_text(part, domains), "it can never hold here")
+            case Or(operands):
+                children = [reason for each in operands for reason in self._needs((), domains, each, ())]
+                additions = tuple(dict.fromkeys(each for child in children for each in child.additions))
+                return Reason(text_of(part, domains), "none of these can hold", tuple(children), additions)
+            case Forall(parameters, body):
+                return self._of_all(part, parameters, body, domains)
+        return Reason(text_of(part, domains), "it can never hold here")
+
+    def _of_all(self, part: Part, parameters: Sequence[Parameter], body: Formula, domains: Domains) -> Reason:
+        """Return why something does not hold for all objects: those for which it does not, the first that are found."""
+        for row in islice(product(*self._domains(parameters).values()), MOST_OBJECTS):
+            names = [parameter.name for parameter in parameters]
+            bound = {**domains, **{name: (value,) for name, value in zip(names, row, strict=True)}}
+            if children := self._needs((), bound, body, ()):
+                given = ", ".join(f"{name} = {value}" for name, value in zip(names, row, strict=True))
+                return Reason(text_of(part, domains), f"it can never hold for {given}", children)
+        return Reason(text_of(part, domains), "it can never hold here")
 
     def _not_asked_for(self, action: Action, wanted: Pattern) -> Reason:
         """Return why no task leads to an action that could be executed."""
@@ -217,7 +231,7 @@ class Reasoner:
         told = str(wanted)
         if not users:
             return Reason(told, "it could be executed, but no method contains it", kind="action", name=action.name)
-        users = [(method, subtask) for method, subtask in users if method.task in self._reachable]
+        users = [(method, subtask) for method, subtask in users if method.task in self._lookup.reachable]
         if not users:
             return Reason(
                 told,
@@ -256,70 +270,3 @@ class Reasoner:
 
     def _own(self, schema: Action | Method) -> Domains:
         return self._domains(schema.parameters)
-
-    @cached_property
-    def _methods_of(self) -> dict[str, list[Method]]:
-        found: defaultdict[str, list[Method]] = defaultdict(list)
-        for method in self.problem.domain.methods.values():
-            found[method.task].append(method)
-        return found
-
-    @cached_property
-    def _achievers(self) -> dict[str, list[tuple[Action, Effect]]]:
-        found: defaultdict[str, list[tuple[Action, Effect]]] = defaultdict(list)
-        for action in self.problem.domain.actions.values():
-            for effect in action.effects:
-                if effect.positive:
-                    found[effect.atom.predicate].append((action, effect))
-        return found
-
-    @cached_property
-    def _reachable(self) -> set[str]:
-        """The tasks that the initial network leads to, whatever the arguments."""
-        found = {subtask.task for subtask in self.problem.network.subtasks}
-        pending = list(found)
-        while pending:
-            for method in self._methods_of[pending.pop()]:
-                new = {subtask.task for subtask in method.network.subtasks} - found
-                found |= new
-                pending += new
-        return found
-
-
-NO_REASON = "all that it needs can be had one by one"
-
-
-def _folded(what: str, children: tuple[Reason, ...], kind: str, name: str) -> Reason:
-    """Return a reason with its only child in the same line, if that has no further ones."""
-    if not children:
-        return Reason(what, NO_REASON, kind=kind, name=name)
-    needs = ", ".join(child.what for child in children)
-    if len(children) == 1 and not children[0].children:
-        child = children[0]
-        return Reason(what, f"needs {needs}: {child.why}", (), child.additions, kind, name)
-    return Reason(what, f"needs {needs}", children, (), kind, name)
-
-
-def _none_of(number: int, one: str, several: str, end: str) -> str:
-    return f"{one if number == 1 else several.format(number)} {end}"
-
-
-def _text(part: Part, domains: QueryDomains) -> str:
-    """Return a part with the objects of the variables that stand for one."""
-    if part.task is not None:
-        return str(pattern(part.task.task, part.terms, domains))
-    assert part.formula is not None
-    return formula_text(
-        renamed(part.formula, {name: objects[0] for name, objects in domains.items() if len(objects) == 1})
-    )
-
-
-def _values(query: Query, part: Part) -> str:
-    """Return the bindings that give a part alone."""
-    names = sorted(name for name in part.variables if len(query.domains[name]) > 1)
-    found: dict[tuple[str, ...], None] = {}
-    for binding in islice(query.answers([part]), 200):
-        found.setdefault(tuple(binding[name] for name in names))
-    shown = [", ".join(f"{name} = {value}" for name, value in zip(names, row, strict=True)) for row in found]
-    more = f" or {len(shown) - MOST_VALUES} others" if len(shown) > MOST_VALUES else ""
-    return " or ".join(shown[:MOST_VALUES]) + more

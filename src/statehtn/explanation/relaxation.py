@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from statehtn.core.grounding import PLAIN, ground
-from statehtn.explanation.open_problem import MISS, NETWORK, SEE, open_problem
+from statehtn.explanation.open_problem import MISS, NETWORK, SEE, UNDO, open_problem
 from statehtn.explanation.relation import EMPTY, Relation, Row
 from statehtn.limits import Limits, watched
 from statehtn.model import GroundAction, GroundProblem, Problem
@@ -61,11 +61,12 @@ def relaxations(problem: Problem, limits: Limits = Limits()) -> list[Relaxation]
 
 
 def _levels(problem: Problem, model: GroundProblem) -> Iterator[Relaxation]:
-    observers = {index for index, action in enumerate(model.actions) if action.name.startswith((SEE, MISS))}
+    observers = {index for index, action in enumerate(model.actions) if action.name.startswith((SEE, MISS, UNDO))}
+    undoing = {index for index in observers if model.actions[index].name.startswith(UNDO)}
     allowed = set(range(len(model.actions))) - observers
     methods = set(range(len(model.methods)))
     while True:
-        literals = _literals(model, allowed)
+        literals = _literals(model, allowed | undoing)
         executable = {index for index in allowed | observers if _wanted(model.actions[index]) <= literals}
         methods = _usable(model, methods, executable)
         reached = _asked_for(model, methods)
@@ -182,5 +183,5 @@ def _relaxation(
             true[name.removeprefix(SEE)] |= found
         elif name.startswith(MISS):
             gone[name.removeprefix(MISS)] = Relation(found)
-    able = {name: Relation(found) for name, found in rows.items() if not name.startswith((SEE, MISS))}
+    able = {name: Relation(found) for name, found in rows.items() if not name.startswith((SEE, MISS, UNDO))}
     return Relaxation(problem, {name: Relation(found) for name, found in true.items()}, gone, able)

@@ -45,18 +45,19 @@ class Reached:
     """What grounding has found out.
 
     Args:
-        grounding: the ground problem, with every method and action of its own.
+        grounding: the ground problem, each method and action by itself; None where actions have several outcomes.
         levels: the levels of the relaxation; empty where they take too long.
         reason: why there is no plan, where the relaxation tells; None if it does not.
     """
 
-    grounding: Grounding
+    grounding: Grounding | None
     levels: tuple[Relaxation, ...]
     reason: Reason | None
 
     @cached_property
     def used(self) -> frozenset[tuple[str, str]]:
         """What may be a part of a plan: "action" or "method", and its name."""
+        assert self.grounding is not None
         grounding, handle = self.grounding, self.grounding.handle
         actions = {grounding.encoding.actions[schema] for schema in set(handle.action_schema)}
         parts = {part for method in range(handle.method_count) for part in range(*handle.method_parts(method))}
@@ -74,10 +75,12 @@ def reached(problem: Problem, limits: Limits) -> Reached:
         StateHtnError: it cannot be grounded: a cost is none, say.
         LimitReached: a limit was reached.
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CostWarning)  # told as findings
-        grounding = ground(problem, limits, replace(PLAIN, mutexes=True))
-    has_plan = grounding.method_count > 0
+    grounding = None
+    if not problem.domain.has_outcomes:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", CostWarning)  # told as findings
+            grounding = ground(problem, limits, replace(PLAIN, mutexes=True))
+    has_plan = grounding is not None and grounding.method_count > 0
     until = time.monotonic() + (SECONDS_FOR_NOTES if has_plan else SECONDS_FOR_NO_PLAN)
     own = replace(limits, deadline=until if limits.deadline is None else min(until, limits.deadline))
     try:
@@ -95,9 +98,12 @@ def check_reachability(subject: Subject, found: Reached, limits: Limits) -> Iter
     """Yield that there is no plan, with its root, what no plan contains, and numbers that are not given."""
     yield from _never_true(subject)
     yield from _without_objects(subject)
-    yield from _missing_values(found.grounding, subject)
+    if found.grounding is not None:
+        yield from _missing_values(found.grounding, subject)
     if found.reason is not None:
         yield _no_plan(subject, found.reason)
+    elif found.grounding is None:
+        return
     elif not found.grounding.method_count:
         message = "there is no plan: conditions that the initial tasks need never hold at the same time"
         place = subject.places.in_section(":htn")
@@ -169,7 +175,7 @@ def _never_true(subject: Subject) -> Iterator[Finding]:
     true.update(
         effect.atom.predicate
         for action in subject.domain.actions.values()
-        for effect in action.effects
+        for effect in action.all_effects
         if effect.positive
     )
     told: set[str] = set()
