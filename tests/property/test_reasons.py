@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from statehtn.explanation.additions import smallest_additions, with_additions
 from statehtn.explanation.explanation import why_no_plan
 from statehtn.explanation.reason import SEEN
-from statehtn.explanation.reasons import NO_REASON, Reasoner
+from statehtn.explanation.reason_words import NO_REASON
+from statehtn.explanation.reasons import Reasoner
 from statehtn.explanation.relaxation import Relaxation, relaxations
 from statehtn.hddl import write_hddl
 from statehtn.inspection import check

@@ -26,8 +26,12 @@ class Pattern:
 
     @property
     def key(self) -> tuple[object, ...]:
-        """What tells patterns apart: not how open arguments are written."""
-        return self.name, tuple(argument.objects for argument in self.arguments)
+        """What tells patterns apart: not how open arguments are written, but which of them are one."""
+        texts = [argument.text for argument in self.arguments]
+        return self.name, tuple(
+            (argument.objects, texts.index(argument.text) if len(argument.objects) > 1 else None)
+            for argument in self.arguments
+        )
 
     @property
     def is_ground(self) -> bool:
@@ -36,7 +40,10 @@ class Pattern:
 
     def rows(self, most: int) -> Iterator[tuple[str, ...]]:
         """Yield the first so many rows of objects that it stands for."""
-        return islice(product(*(argument.objects for argument in self.arguments)), most)
+        objects = {argument.text: argument.objects for argument in self.arguments}
+        for values in islice(product(*objects.values()), most):
+            chosen = dict(zip(objects, values, strict=True))
+            yield tuple(chosen[argument.text] for argument in self.arguments)
 
     def __str__(self) -> str:
         words = (arg.objects[0] if len(arg.objects) == 1 else arg.text for arg in self.arguments)

@@ -130,12 +130,23 @@ def ungrounded(error: StateHtnError) -> Finding:
 
 def _no_plan(subject: Subject, reason: Reason) -> Finding:
     root = main_root(subject, reason)
+    owner = _owner(reason, root) or root
     message = f"there is no plan: {reason}"
     if root is not reason:
-        message += f"; at the root: {root}"
+        message += f"; at the root: {root if root is owner else f'{owner.what} needs {root}'}"
     advice = "see 'statehtn why' for the whole reason and for what would help"
-    about = None if root.kind == "condition" else (root.kind, root.name)
-    return Finding(Level.ERROR, _place_of(subject, root), message, advice, "no-plan", about)
+    about = (owner.kind, owner.name) if owner.name else None
+    return Finding(Level.ERROR, _place_of(subject, root, owner), message, advice, "no-plan", about)
+
+
+def _owner(reason: Reason, root: Reason) -> Reason | None:
+    """Return the last action or method on the way from a reason to a condition that is a root; None for other roots."""
+    if root.kind != "condition":
+        return None
+    for child in reason.children:
+        if any(each is root for each in child.walk()):
+            return _owner(child, root) or (reason if reason.kind in ("action", "method") else None)
+    return None
 
 
 def main_root(subject: Subject, reason: Reason) -> Reason:
@@ -154,14 +165,14 @@ def main_root(subject: Subject, reason: Reason) -> Reason:
     return min(roots, key=rank)
 
 
-def _place_of(subject: Subject, root: Reason) -> Place:
-    """Return where the model asks for what a root is about."""
+def _place_of(subject: Subject, root: Reason, owner: Reason) -> Place:
+    """Return where the model asks for what a root is about, in its owner."""
     predicate = next((each.fact[0] for each in root.additions if each.fact is not None), None)
     inside = () if predicate is None else ((predicate, ANYTHING),)
-    if root.kind == "method":
-        return subject.places.inside("method", root.name, *inside)
-    if root.kind in ("action", "task") and root.name:
-        return subject.places.inside("task", root.name, *inside)
+    if owner.kind == "method":
+        return subject.places.inside("method", owner.name, *inside)
+    if owner.kind in ("action", "task") and owner.name:
+        return subject.places.inside("task", owner.name, *inside)
     if predicate is not None:
         return subject.places.in_section(":goal", *inside)
     return subject.places.in_section(":htn")
