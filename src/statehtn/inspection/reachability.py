@@ -247,12 +247,22 @@ def _not_in_plans(subject: Subject, found: Reached, limits: Limits) -> Iterator[
         message, code = f"{kind} '{schema.name}' is a part of no plan of this problem", "in-no-plan"
         if never is not None:
             word = "executed" if isinstance(schema, Action) else "used"
-            message, code = f"{kind} '{schema.name}' can never be {word}: {main_root(subject, never)}", "never-applies"
+            message, code = (
+                f"{kind} '{schema.name}' can never be {word}: {_why(subject, never, schema)}",
+                "never-applies",
+            )
         elif found.levels:
             reason = Reasoner(found.levels, limits).never(schema)
-            message += ": the initial tasks do not lead to it" if reason is None else f": {main_root(subject, reason)}"
+            why = "the initial tasks do not lead to it" if reason is None else _why(subject, reason, schema)
+            message += f": {why}"
         place = subject.places.declared("method" if kind == "method" else "task", schema.name)
         yield Finding(Level.NOTE, place, message, "this may be meant", code, (kind, schema.name))
+
+
+def _why(subject: Subject, reason: Reason, schema: Action | Method) -> str:
+    """Return the root of a reason in words; without the name of the action or method that it is the reason of."""
+    root = main_root(subject, reason)
+    return root.why if root is reason and root.name == schema.name else str(root)
 
 
 def _is_mentioned(subject: Subject, schema: Action | Method) -> bool:
