@@ -13,12 +13,16 @@ namespace {
 // Of all laws of the graph together, about: where there are many methods, each has fewer.
 constexpr std::size_t kOutcomesInAll = std::size_t{1} << 21;
 constexpr std::size_t kFewestOutcomes = 16;
+// Where there are many sums of laws with many outcomes each: of tasks, and of networks.
+constexpr std::size_t kFewOfTasks = 256;
+constexpr std::size_t kFewOfNetworks = 128;
 constexpr double kUnitsPerStep = 16;  // of means by which tasks are put in order
 
 // The graph of laws keeps the largest of several probabilities at each cost, and of that no mean beyond a bound.
-LawDetail detail_of_bounds(const LawDetail& detail, std::size_t most_outcomes) {
+LawDetail detail_of_bounds(const LawDetail& detail, std::size_t most_outcomes, std::size_t fewest_outcomes) {
     LawDetail of_bounds = detail.is_flat_beyond ? detail : LawDetail{};
     of_bounds.most_outcomes = most_outcomes;
+    of_bounds.fewest_outcomes = fewest_outcomes;
     return of_bounds;
 }
 
@@ -55,8 +59,8 @@ LawsToCome::LawsToCome(const PricedProblem& least, const CostLaws& costs, const 
                        const LawOptions& options)
     : least_(least),
       has_parts_(options.graph_parts),
-      table_(detail_of_bounds(detail, outcomes_for(least.problem, options.graph_outcomes))),
-      network_table_(detail_of_bounds(detail, options.network_outcomes)),
+      table_(detail_of_bounds(detail, outcomes_for(least.problem, options.graph_outcomes), kFewOfTasks)),
+      network_table_(detail_of_bounds(detail, options.network_outcomes, kFewOfNetworks)),
       actions_(costs.in(table_, costs.actions)),
       parts_(costs.in(table_, costs.parts)) {
     assert(costs.actions.size() == least.problem.action_count());

@@ -15,6 +15,7 @@ namespace {
 constexpr double kPlacesPerPair = 8;
 constexpr double kFewPlaces = 256;
 constexpr std::size_t kPairsUntilCheck = 1 << 14;
+constexpr double kPairsUntilFewer = 1 << 26;  // some tenths of a second
 
 std::uint64_t hash_pair(LawId one, LawId other) { return mix((std::uint64_t{one} << 32) | other); }
 
@@ -71,6 +72,10 @@ void LawTable::convolve(const Law& one, const Law& other, Limits& limits) {
     const double least = one.least() + other.least();
     const double places = std::min(one.most() + other.most(), detail_.last) - least + 1;
     const auto pairs = static_cast<double>(one.size()) * static_cast<double>(other.size());
+    if ((work_ += pairs) > kPairsUntilFewer && detail_.most_outcomes / 2 >= detail_.fewest_outcomes) {
+        detail_.most_outcomes /= 2;
+        work_ = 0.0;
+    }
     is_whole_ = one.is_whole && other.is_whole;
     if (is_whole_ && places <= std::max(kFewPlaces, kPlacesPerPair * pairs)) {
         add_densely(one, other, least, limits);

@@ -14,6 +14,15 @@ namespace {
 
 // Of a law that is only for a bound: where there are more, costs are rounded down.
 constexpr std::size_t kMostOutcomes = 4096;
+// Of those of the graphs of laws, of which there is one for each scenario.
+constexpr std::size_t kOutcomesOfTasks = 256;
+constexpr std::size_t kOutcomesOfNetworks = 128;
+
+LawOptions for_many(LawOptions options) {
+    options.graph_outcomes = std::min(options.graph_outcomes, kOutcomesOfTasks);
+    options.network_outcomes = std::min(options.network_outcomes, kOutcomesOfNetworks);
+    return options;
+}
 
 // What neither the objective nor a budget needs to know.
 LawDetail detail_of(const LawObjective& objective, std::span<const ScenarioBudget> budgets) {
@@ -53,10 +62,10 @@ ScenarioLaws::ScenarioLaws(const std::vector<ScenarioCosts>& scenarios, std::vec
                            const LawOptions& law_options)
     : ScenarioValuation(std::move(tangents), least_of(scenarios), asks_scenarios, std::move(objective),
                         std::move(budgets), options),
-      law_options_(law_options) {
+      law_options_(for_many(law_options)) {
     const LawDetail detail = detail_of(this->objective(), this->budgets());
     for (const ScenarioCosts& costs : scenarios) {
-        scenarios_.emplace_back(costs, detail, law_options);
+        scenarios_.emplace_back(costs, detail, law_options_);
     }
 }
 

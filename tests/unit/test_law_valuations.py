@@ -110,6 +110,7 @@ def test_budgets_that_no_plan_keeps(vehicle: Problem) -> None:
     assert search(vehicle, "neutral", (Keep(10.0, 0.5),)).status is Status.UNSOLVABLE
 
 
+@pytest.mark.filterwarnings("ignore::statehtn.hddl.HddlWarning")
 @pytest.mark.parametrize(
     "text", ["mean-deviation 1", "one-switch alpha=1 tradeoff=1 wealth=3", "deadline 5", "neutral"]
 )

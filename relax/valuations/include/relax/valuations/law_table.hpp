@@ -31,6 +31,8 @@ struct LawDetail {
     std::size_t most_outcomes = kAnyNumber;
     // ... or their mean, so that it is in the increasing convex order.
     bool keeps_means = false;
+    // The more sums have been worked out, the fewer outcomes: that number is halved from time to time, down to this.
+    std::size_t fewest_outcomes = kAnyNumber;
 };
 
 // Laws of costs, equal ones once, and the laws of sums of independent costs, each remembered. Probabilities are not
@@ -80,6 +82,7 @@ private:
     std::vector<double> dense_;
     std::vector<std::pair<double, double>> pairs_;
     std::vector<std::pair<double, double>> merged_;
+    double work_ = 0.0;  // pairs of outcomes that were added up since the number of outcomes was halved
     double beyond_probability_ = 0.0;
     double beyond_cost_ = 0.0;  // its part of the mean
     bool is_whole_ = true;
