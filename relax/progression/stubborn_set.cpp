@@ -75,6 +75,7 @@ bool StubbornSet::close(const OrderedTasks& network, std::span<const std::uint64
     for (std::size_t next = 0; next < members_.size(); ++next) {
         limits_.stop_if_reached();
         const std::uint32_t member = members_[next];
+        // Sooner than the loop below would find it.
         if (are_compounds_kept_out_ || concerns(compounds_, member, state)) {
             return false;
         }

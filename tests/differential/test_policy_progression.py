@@ -161,3 +161,18 @@ def test_fixing_the_order_may_be_wrong() -> None:
         unseen = grounded_graph(ground(problem, switches=SWITCHES), sees_costs=False)
         values.add(best_policy_with_memory(unseen, "deadline 8").value)
     assert max(values) == Fraction(1, 2)
+
+
+def test_an_action_may_wait_for_what_a_task_leads_to() -> None:
+    """Where failing has a price, what commutes with all else is paid only if x has worked: 1 + (3 + 10) / 2."""
+    domain = """(define (domain d) (:predicates (p)) (:functions (total-cost))
+        (:task t :parameters ())
+        (:method tx :parameters () :task (t) :subtasks (x)) (:method ty :parameters () :task (t) :subtasks (y))
+        (:action b :parameters () :effect (increase (total-cost) 3))
+        (:action x :parameters () :effect (and (probabilistic 0.5 (p) 0.5 ()) (increase (total-cost) 1)))
+        (:action y :parameters () :effect (and (p) (increase (total-cost) 30))))"""
+    problem = read_hddl_text(
+        domain, "(define (problem p) (:domain d) (:htn :subtasks (and (b) (t))) (:init) (:goal (p)))"
+    )
+    graph = graph_of(problem, "neutral", Fraction(10))
+    assert best_policy(graph, "neutral", Fraction(10)).value == Fraction(15, 2)

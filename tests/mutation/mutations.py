@@ -358,7 +358,7 @@ MUTATIONS = [
         "policies: what compound tasks lead to is certain",
         "relax/progression/policy_progression.cpp",
         "            mark(problem.method_task[method]);\n",
-        "            limits.stop_if_reached();\n",
+        "            if (problem.is_chance(problem.method_task[method])) mark(problem.method_task[method]);\n",
         (POLICY_PROGRESSION,),
     ),
     Mutation(
@@ -366,13 +366,6 @@ MUTATIONS = [
         "relax/progression/stubborn_set.cpp",
         "!(is_kept_out(network.tasks[other]) || concerns(*occurring_[other], member, state))",
         "!concerns(*occurring_[other], member, state)",
-        (POLICY_PROGRESSION,),
-    ),
-    Mutation(
-        "policies: stubborn sets leave out compound tasks that lead to uncertain actions",
-        "relax/progression/stubborn_set.cpp",
-        "if (are_compounds_kept_out_ || concerns(compounds_, member, state)) {",
-        "if (concerns(compounds_, member, state)) {",
         (POLICY_PROGRESSION,),
     ),
     Mutation(
