@@ -139,6 +139,14 @@ def objectives(session: nox.Session) -> None:
     session.run("pytest", *thorough, "tests/differential/test_objectives.py", *session.posargs)
 
 
+@nox.session
+def policies(session: nox.Session) -> None:
+    """Compare the policies of thousands of random problems with exact arithmetic on their whole graphs (an hour)."""
+    session.install(".", *nox.project.dependency_groups(PROJECT, "test"))
+    thorough = ("--hypothesis-profile", "objectives", "-rP")
+    session.run("pytest", *thorough, "tests/differential/test_policies.py", *session.posargs)
+
+
 @nox.session(venv_backend="virtualenv")
 def mutation(session: nox.Session) -> None:
     """Break the conditions on which optimality hangs, one at a time, and see whether the tests notice (half an hour).

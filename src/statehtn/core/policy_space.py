@@ -43,6 +43,8 @@ def policy_space(grounding: Grounding, limits: Limits = Limits()) -> PolicySpace
         LimitReached: a limit was reached.
         UnsupportedError: there are too many nodes; there may be infinitely many.
     """
+    if not grounding.handle.solvable:  # nothing is left of the initial network
+        return PolicySpace([[]], [False])
     laws, parts = grounding.laws, grounding.part_laws
     due_parts = [parts[slice(*grounding.handle.cost_parts(action))] for action in range(len(laws))]
     free = [law.most == 0 and not due for law, due in zip(laws, due_parts, strict=True)]

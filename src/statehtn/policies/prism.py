@@ -154,7 +154,9 @@ def _shown(probability: Fraction) -> str:
     decimal = repr(float(probability))
     if "e" not in decimal and Fraction(decimal) == probability:
         return decimal
-    return f"{probability.numerator}/{probability.denominator}"
+    # Whole numbers have 64 bits there, others as many digits as are written.
+    end = "" if probability.denominator < 2**63 else ".0"
+    return f"{probability.numerator}{end}/{probability.denominator}{end}"
 
 
 def _one_of(states: Iterable[int]) -> str:

@@ -1,0 +1,163 @@
+"""The best policy is the best of all: random problems against exact values of their whole graphs.
+
+Objectives: all that have policies, with and without a price of failing. The value of each policy that is found is
+worked out again from its decisions, and its runs are checked against the lifted problem.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import statehtn
+from statehtn import PolicyResult, Problem, Status
+from statehtn.limits import Limits
+from statehtn.policies.run import find_policy
+from statehtn.policies.settings import PolicySettings
+from statehtn.session import Session
+from tests.brute_force import GaveUp
+from tests.explicit_graph import explicit_graph
+from tests.explicit_memory import INFINITE, FailureCost
+from tests.naive_outcomes import Way, ways
+from tests.naive_semantics import Semantics, State
+from tests.policy_values import best_answer, graph_of_policy
+from tests.random_graphs import ALPHAS, LEVELS
+from tests.random_outcomes import chance_problems, wide_problems
+from tests.shares import share_of_examples
+
+SHARE = share_of_examples(3)
+LIMITS = Limits(steps=200_000)
+PRECISION = 1e-9
+CLOSE = {"rel": 1e-7, "abs": 1e-8}
+BY_SWEEP = 1e-3  # the precision by which agents of many alphas prove the entropic value at risk
+ORDERS = [("total",), ("none", "partial")]
+PLAIN = st.one_of(
+    st.just("neutral"), st.builds("{} {}".format, st.sampled_from(("averse", "seeking")), st.sampled_from(ALPHAS))
+)
+BUDGETS = st.sampled_from(("1", "2", "3.5", "5", "8", "13"))
+MEMORY = {
+    "deadline": st.builds("deadline {}".format, BUDGETS),
+    "overrun": st.builds("overrun {}".format, BUDGETS),
+    "quantile": st.builds("quantile {}".format, st.sampled_from(LEVELS)),
+    "cvar": st.builds("cvar {}".format, st.sampled_from(LEVELS)),
+    "mean-cvar": st.builds("mean-cvar {} {}".format, st.sampled_from(LEVELS), st.sampled_from(("0.25", "0.75"))),
+    "piecewise": st.builds(
+        "piecewise 0:0 2:{} 5:{}".format, st.sampled_from(("0", "-1")), st.sampled_from(("-4", "-9"))
+    ),
+    "evar": st.builds("evar {}".format, st.sampled_from(("0.5", "0.9"))),
+}
+FAILURE_COSTS: st.SearchStrategy[FailureCost] = st.sampled_from(
+    (None, None, Fraction(2), Fraction(10), Fraction("0.5"))
+)
+
+
+def problems(orders: Sequence[str]) -> st.SearchStrategy[Problem]:
+    return st.one_of(chance_problems(tuple(orders)), chance_problems(tuple(orders)), wide_problems(tuple(orders)))
+
+
+def search(problem: Problem, text: str, failure_cost: FailureCost = None) -> PolicyResult:
+    """The planner's answer; give up where a limit came first."""
+    price = None if failure_cost is None else float(failure_cost)
+    precision = BY_SWEEP if text.startswith("evar") else PRECISION
+    settings = PolicySettings.of(text, failure_cost=price, precision=precision)
+    result = find_policy(Session(problem), settings, LIMITS)
+    if result.stopped is not None:
+        assert result.stopped is Status.TIME_LIMIT
+        raise GaveUp
+    return result
+
+
+def check(problem: Problem, text: str, failure_cost: FailureCost = None) -> PolicyResult:
+    """The planner's policy is worth what the best one is, and its runs are runs of the problem."""
+    graph = explicit_graph(problem)
+    answer = best_answer(graph, text, failure_cost)
+    result = search(problem, text, failure_cost)
+    must_be_best(problem, result, answer.value, answer.expected_cost, text, failure_cost)
+    return result
+
+
+def must_be_best(
+    problem: Problem,
+    result: PolicyResult,
+    value: Fraction | None,
+    expected_cost: Fraction | None,
+    text: str,
+    failure_cost: FailureCost,
+) -> None:
+    if value is None:
+        assert result.status is Status.UNSOLVABLE
+        assert result.policy is None
+        assert result.reason
+        return
+    assert result.status is Status.OPTIMAL
+    assert result.policy is not None
+    by_sweep = text.startswith("evar")
+    close = {"rel": BY_SWEEP, "abs": BY_SWEEP} if by_sweep else CLOSE
+    slack = (2e-7 if by_sweep else CLOSE["abs"]) * max(1.0, abs(float(value)))
+    assert result.value == pytest.approx(float(value), **close)
+    assert result.lower_bound <= float(value) + slack
+    assert result.upper_bound >= float(value) - slack
+    own = best_answer(graph_of_policy(result.policy.graph.flat), text, failure_cost)
+    assert own.value is not None
+    assert float(own.value) == pytest.approx(float(value), **close)
+    if expected_cost is not None:
+        assert float(own.expected_cost) == pytest.approx(float(expected_cost), **CLOSE)
+    for seed in range(3):
+        must_be_a_run(problem, result, seed)
+
+
+def must_be_a_run(problem: Problem, result: PolicyResult, seed: int) -> None:
+    """Require that a run that is drawn can happen in the lifted problem, with the probabilities that are stated."""
+    semantics = Semantics(problem)
+    trajectory = result.policy.trajectory(seed)
+    state = problem.initial_state
+    for taken in trajectory.steps:
+        found = ways(semantics, taken.step.action, taken.step.arguments, state)
+        assert found is not None, taken
+        fitting = [way for way in found if fits(way, taken.added, taken.deleted, state)]
+        assert fitting, taken
+        # A branch may stand for several outcomes, which differ in facts that no longer matter.
+        least = min(way.probability * (probability_of(way, taken.cost) or 1) for way in fitting)
+        assert taken.probability >= float(least) - 1e-9, taken
+        state = min(fitting, key=lambda way: len(way.state(state) ^ state)).state(state)
+    if trajectory.end is statehtn.model.policy_graph.End.DONE:
+        assert semantics.holds(problem.goal, {}, state)
+        plan = result.policy.plan(trajectory)
+        assert [str(step) for step in plan.steps] == [str(taken.step) for taken in trajectory.steps]
+
+
+def fits(way: Way, added: State, deleted: State, state: State) -> bool:
+    after = way.state(state)
+    return added <= after and not deleted & after
+
+
+def probability_of(way: Way, cost: float) -> Fraction:
+    return sum((p for amount, p in way.law.items() if math.isclose(amount, cost, abs_tol=1e-12)), Fraction(0))
+
+
+@pytest.mark.parametrize("orders", ORDERS)
+@SHARE
+@given(data=st.data())
+def test_neutral_and_exponential(orders: tuple[str, ...], data: st.DataObject) -> None:
+    check(data.draw(problems(orders)), data.draw(PLAIN), data.draw(FAILURE_COSTS))
+
+
+@pytest.mark.parametrize("orders", ORDERS)
+@SHARE
+@given(data=st.data())
+def test_success(orders: tuple[str, ...], data: st.DataObject) -> None:
+    check(data.draw(problems(orders)), "success")
+
+
+@pytest.mark.parametrize("family", MEMORY)
+@SHARE
+@given(data=st.data())
+def test_agents_that_look_at_what_they_have_spent(family: str, data: st.DataObject) -> None:
+    problem = data.draw(problems(("total", "none", "partial")))
+    infinite = st.just(INFINITE) if family in ("deadline", "quantile") else st.nothing()
+    check(problem, data.draw(MEMORY[family]), data.draw(st.one_of(FAILURE_COSTS, infinite)))
