@@ -98,17 +98,16 @@ class CostReader:
             InputError: probabilities that are constant are negative or sum to more than 1.
             UnsupportedError: an effect does more than to increase the total cost.
         """
-        pairs = self.chances(node, scope, "it costs 0")
-        return tuple((probability, self._outcome(effect, scope)) for probability, effect in pairs)
+        pairs = self.chances(node, scope)
+        branches = tuple((probability, self._outcome(effect, scope)) for probability, effect in pairs)
+        self.check_sum(pairs, node, "it costs 0")
+        return branches
 
-    def chances(self, node: Group, scope: Scope, rest: str) -> list[tuple[Expression, Node]]:
+    def chances(self, node: Group, scope: Scope) -> list[tuple[Expression, Node]]:
         """Return the pairs of a probability and an effect of `(probabilistic p1 e1 p2 e2 ...)`.
 
-        Args:
-            rest: what happens with the rest of probability 1, for the warning.
-
         Raises:
-            InputError: probabilities that are constant are negative or sum to more than 1.
+            InputError: a constant probability is negative.
         """
         nodes = node.items[1:]
         if not nodes or len(nodes) % 2:
@@ -124,7 +123,6 @@ class CostReader:
                     f"a probability must not be negative, found {_shown(value)}", probability_node
                 )
             pairs.append((probability, effect))
-        self._check_sum([probability for probability, _ in pairs], node, rest)
         return pairs
 
     def expression(self, node: Node, scope: Scope) -> Expression:
@@ -173,8 +171,18 @@ class CostReader:
             )
         raise refusal(node, self.vocabulary, self.reporter)
 
-    def _check_sum(self, probabilities: Iterable[Expression], node: Group, rest: str) -> None:
-        values = [constant_value(probability) for probability in probabilities]
+    def check_sum(self, pairs: Iterable[tuple[Expression, Node]], node: Group, rest: str) -> None:
+        """Refuse constant probabilities that sum to more than 1; warn of a sum that is less.
+
+        Args:
+            pairs: as `chances` returns them.
+            node: the block.
+            rest: what happens with the rest of probability 1, for the warning.
+
+        Raises:
+            InputError: they sum to more than 1.
+        """
+        values = [constant_value(probability) for probability, _ in pairs]
         total = sum((value for value in values if value is not None), Fraction(0))
         if total > 1 + PROBABILITY_TOLERANCE:  # those that are not constant are at least 0
             raise self.reporter.error(f"the probabilities of this block sum to {_shown(total)}, more than 1", node)

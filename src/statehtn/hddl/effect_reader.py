@@ -91,10 +91,12 @@ class EffectReader:
             if predicate in self.vocabulary.hidden:
                 raise self.reporter.unsupported(f"these outcomes depend on a fact of '{predicate}'; {ONLY_COSTS}", node)
         found = []
-        for probability, effect in self._cost_reader().chances(node, scope, "nothing happens"):
+        pairs = self._cost_reader().chances(node, scope)
+        for probability, effect in pairs:
             reader = EffectReader(self.vocabulary, self.reporter, is_outcome=True)
             reader.read(effect, scope)
             found.append(Outcome(probability, tuple(reader.effects), tuple(reader.costs)))
+        self._cost_reader().check_sum(pairs, node, "nothing happens")
         place = self.reporter.source.place(node.index)
         self.outcomes.append(OutcomeBlock(tuple(found), condition, parameters, place))
 
