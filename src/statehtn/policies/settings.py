@@ -10,11 +10,14 @@ from statehtn.expected import number
 from statehtn.risk import (
     Attitude,
     AttitudeName,
+    CallableUtility,
     Deadline,
+    Exponentials,
     MeanDeviation,
     MeanVariance,
     Objective,
     ObjectiveLike,
+    OneSwitch,
     Quantile,
     Success,
     agent_in,
@@ -106,8 +109,13 @@ def policy_objective(
     if isinstance(found, MeanVariance | MeanDeviation):
         raise UnsupportedError(
             f"no policy can be found by '{found}': it may prefer a larger cost to a smaller one, so that the best "
-            "decision after one outcome depends on what was decided after the others; averse, cvar or one-switch "
+            "decision after one outcome depends on what was decided after the others; averse, overrun or cvar "
             "agents shun risk, too, and have policies"
+        )
+    if isinstance(found, OneSwitch | Exponentials | CallableUtility):
+        raise UnsupportedError(
+            f"policies by '{found}' are not searched for yet: what was spent matters to such an agent whatever it is; "
+            "averse, overrun, piecewise and cvar agents have policies"
         )
     return found
 
