@@ -54,7 +54,7 @@ Cost PairBounds::closer(PairId pair) {
     view.tdg_bound = entry.bound;
     const Cost told = heuristic_->evaluate(view).value_or(kInfinity);
     // What it saves to expand no node that need not be expanded is not known here: as much as many evaluations.
-    constexpr std::uint64_t kWorkSaved = std::uint64_t{1} << 16;
+    constexpr std::uint64_t kWorkSaved = std::uint64_t{1} << 8;
     heuristic_.note_answer(told > entry.bound, kWorkSaved);
     entries_[pair] = {std::max(entry.bound, told), true};
     return entries_[pair].bound;

@@ -65,6 +65,9 @@ void PolicySearch::search() {
             ++gathering_;
         }
         gather(order_);
+        if (has_met_open && hurries()) {
+            expand_around();
+        }
         if (!has_met_open && (!has_changed_ || ++quiet_rounds_ >= kRoundsUntilIteration)) {
             quiet_rounds_ = 0;
             if (++quiet_iterations_ >= kQuietIterations) {
@@ -72,6 +75,9 @@ void PolicySearch::search() {
             }
             if (improve_envelope() || graph_[root_].lower == kNever || is_near()) {
                 return;
+            }
+            if (hurries()) {
+                expand_around();
             }
         }
         if (statistics_.expanded >= next_upper_) {
@@ -118,6 +124,7 @@ void PolicySearch::enter(PolicyNodeId node, bool& has_met_open) {
         return;
     }
     entered.visited = round_;
+    ++walked_;
     if (!entered.is_expanded) {
         if (entered.lower >= entered.stop) {
             return;  // it is known to be no better than stopping
@@ -128,12 +135,12 @@ void PolicySearch::enter(PolicyNodeId node, bool& has_met_open) {
         entered.lower = std::max(entered.lower, std::min(bound, entered.stop));
         statistics_.dead_ends += bound == kNever ? 1 : 0;
         has_met_open = has_met_open || entered.lower < entered.stop;
-        if (has_risen || plunges_left_ == 0) {
+        if ((has_risen && !hurries()) || plunges_left_ == 0 || entered.lower >= entered.stop) {
             return;
         }
         --plunges_left_;
         expand(node);
-        if (back_up(node)) {
+        if (back_up(node) && !hurries()) {
             return;
         }
     }
@@ -216,7 +223,9 @@ void PolicySearch::note_costs() {
 
 // Find the best policy of the envelope.
 void PolicySearch::improve(Outside outside) {
+    constexpr std::uint64_t kPasses = 8;  // through the envelope, at a guess
     ++statistics_.iterations;
+    walked_ += kPasses * envelope_.size();
     iteration_.improve(envelope_, options_.recursion);
     if (options_.breaks_ties) {
         worths_.clear();
@@ -253,6 +262,34 @@ bool PolicySearch::improve_envelope() {
     }
     note_lower();
     return keep_if_closed(Outside::Lower);
+}
+
+// Expand some of the open nodes to which decisions of the envelope lead.
+void PolicySearch::expand_around() {
+    constexpr std::size_t kShare = 2;  // of as many as the envelope has
+    std::vector<PolicyNodeId> open;
+    ++round_;
+    for (auto node = members_.rbegin(); node != members_.rend() && open.size() <= members_.size() / kShare; ++node) {
+        for (const DecisionId decision : graph_.decisions_of(*node)) {
+            for (const PolicyNodeId to : graph_.successors(decision)) {
+                DecisionGraph::Node& found = graph_[to];
+                if (!found.is_expanded && found.visited != round_ && found.lower < found.stop) {
+                    found.visited = round_;
+                    open.push_back(to);
+                }
+            }
+        }
+    }
+    for (const PolicyNodeId node : open) {
+        limits_.stop_if_reached();
+        DecisionGraph::Node& found = graph_[node];
+        found.lower = std::max(found.lower, std::min(source_.bound(node, found.lower), found.stop));
+        ++statistics_.evaluated;
+        if (found.lower < found.stop) {
+            expand(node);
+            back_up(node);
+        }
+    }
 }
 
 // Find the best policy of all that is explored.

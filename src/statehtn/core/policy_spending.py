@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 import statehtn._relax as _relax
-from statehtn.core.law_grid import LawGrid
+from statehtn.core.law_grid import Grid, LawGrid
 from statehtn.core.policy_laws import SpendingLaws
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem
@@ -84,6 +84,19 @@ DISUTILITIES: Mapping[type[Any], Callable[[Any, Fraction], Disutility]] = Mappin
 """Objectives by which the best policy depends on what was spent."""
 
 
+def _grid(problem: PolicyProblem, failure_cost: float | None, limits: Limits) -> LawGrid:
+    """Return the laws of all actions on a grid on which the cost of a failure is, too."""
+    found = LawGrid.first(problem.grounding, limits)
+    if failure_cost is None or not math.isfinite(failure_cost) or not found.grid.is_exact:
+        return found
+    step, failure = found.grid.step, as_decimal(failure_cost)
+    unit = math.lcm(step.denominator, failure.denominator)
+    common = Fraction(math.gcd(int(step * unit), int(failure * unit)), unit)
+    if common == step:
+        return found
+    return LawGrid(problem.grounding, Grid(common, common, found.grid.tail), limits)
+
+
 class SpendingPolicies(PolicyRun):
     """The best policy by an objective of the total cost, from one amount, or from the best one of all.
 
@@ -110,7 +123,7 @@ class SpendingPolicies(PolicyRun):
     ) -> None:
         super().__init__(problem, precision, watch)
         self.objective = objective
-        self.grid = LawGrid.first(problem.grounding, limits)
+        self.grid = _grid(problem, failure_cost, limits)
         if not self.grid.grid.is_exact:
             raise UnsupportedError(
                 f"a policy by '{objective}' depends on what was spent: all costs must be multiples of one step that is"

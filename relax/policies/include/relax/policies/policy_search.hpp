@@ -83,6 +83,9 @@ public:
     const DecisionGraph& graph() const { return graph_; }
 
 private:
+    static constexpr std::uint64_t kWalkedPerNode = 16;
+    static constexpr std::uint64_t kFewNodes = 256;
+
     struct Frame {
         PolicyNodeId node;
         std::uint32_t next;  // outcome of the choice to go to
@@ -96,6 +99,10 @@ private:
     bool back_up_cost(PolicyNodeId node, bool has_risen);
     void gather(std::span<const PolicyNodeId> nodes);
     bool improve_envelope();
+    void expand_around();
+    // Whether going through policies and improving them has taken more than expanding nodes. More nodes are expanded in
+    // passing then, also such as the best policy by the lower worths may not need.
+    bool hurries() const { return walked_ > kWalkedPerNode * (statistics_.expanded + kFewNodes); }
     void improve(Outside outside);
     void improve_explored();
     void note_costs();
@@ -124,6 +131,7 @@ private:
     std::uint32_t gathering_ = 1;         // the number of the envelope
     std::uint32_t quiet_rounds_ = 0;      // since an open node was met
     std::uint32_t quiet_iterations_ = 0;  // likewise
+    std::uint64_t walked_ = 0;            // nodes that rounds and improvements have gone through so far
     std::size_t plunges_left_ = 0;        // of the round: nodes that may be expanded right after their parents
     bool has_changed_ = false;            // in the round: a choice
     std::size_t next_upper_ = 256;        // when so many nodes are expanded
