@@ -338,7 +338,7 @@ MUTATIONS = [
         "relax/valuations/scenario_totals.cpp",
         "options().decided_scenarios && static_cast<double>(add_bounds(others[k], least[k])) > last_;",
         "options().decided_scenarios && static_cast<double>(add_bounds(others[k], least[k])) > last_ / 2;",
-        (SCENARIOS_ALONE, CORRELATED),
+        (LABEL_RULES, SCENARIOS_ALONE, CORRELATED),
     ),
     Mutation(
         "policies: the choice of a method waits for nothing",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 import pytest
@@ -10,7 +11,10 @@ import statehtn._relax as _relax
 from statehtn import Problem, Status, read_hddl_text
 from statehtn.core.grounding import ground
 from statehtn.core.label_search import search_labels
+from statehtn.core.labels import Support
+from statehtn.core.scenario_labels import ScenarioLabels
 from statehtn.core.search import last_of
+from statehtn.limits import Limits
 from statehtn.risk.keep import Keep
 from statehtn.risk.objectives import objective
 from tests.exact_disutility import ExactDisutility
@@ -80,3 +84,36 @@ def test_a_budget_is_kept_by_the_way_that_leaves_enough_of_it() -> None:
     outcome = last_of(search_labels(ground(budget_problem()), objective("neutral"), keep=(Keep(10.0, 0.8),)))
     assert outcome.status is Status.OPTIMAL
     assert [step.action for step in next(iter(outcome.plans)).steps] == ["mostly", "rest"]
+
+
+SNOW = """(define (domain d) (:predicates (snow)) (:functions (total-cost))
+  (:task go :parameters ()) (:task end :parameters ())
+  (:method a :parameters () :task (go) :ordered-subtasks (and (road)))
+  (:method b :parameters () :task (go) :ordered-subtasks (and (rail)))
+  (:method c :parameters () :task (end) :ordered-subtasks (and (unload)))
+  (:method d :parameters () :task (end) :ordered-subtasks (and (wait)))
+  (:action road :parameters () :effect (and (increase (total-cost) 3) (when (snow) (increase (total-cost) 6))))
+  (:action rail :parameters () :effect (increase (total-cost) 6))
+  (:action unload :parameters () :effect (increase (total-cost) 1))
+  (:action wait :parameters () :effect (increase (total-cost) 6)))"""
+
+
+def test_a_scenario_is_decided_where_what_is_to_come_is_over_for_certain() -> None:
+    """By road it is late in the snow, by rail never: 6 and 1 are less than 8, so that the snow has not decided yet."""
+    support = ScenarioLabels.support
+
+    def nothing_known(labels: ScenarioLabels, limits: Limits, share: float = 0.25) -> Iterator[Support]:
+        for _ in support(labels, limits, share):
+            pass
+        yield Support()
+
+    problem = read_hddl_text(
+        SNOW,
+        """(define (problem p) (:domain d) (:htn :ordered-subtasks (and (go) (end)))
+        (:init (probabilistic 0.5 (snow) 0.5 ())))""",
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ScenarioLabels, "support", nothing_known)
+        outcome = last_of(search_labels(ground(problem), objective("deadline 8")))
+    assert outcome.status is Status.OPTIMAL
+    assert [step.action for step in next(iter(outcome.plans)).steps] == ["rail", "unload"]
