@@ -1,4 +1,4 @@
-"""Numbers of things in words, and long texts in short."""
+"""Numbers of things in words, letters for them, and long texts in short."""
 
 from __future__ import annotations
 
@@ -13,3 +13,13 @@ def counted(number: int, noun: str) -> str:
 def brief(text: str) -> str:
     """Return a text, cut where it is long."""
     return text if len(text) <= MOST_CHARACTERS else f"{text[: MOST_CHARACTERS - 3]}..."
+
+
+def letters(index: int) -> str:
+    """Return a name for a thing of a list: A to Z, then AA, AB and so on; the first index is 0."""
+    text = ""
+    index += 1
+    while index:
+        index, rest = divmod(index - 1, 26)
+        text = chr(ord("A") + rest) + text
+    return text

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from statehtn.counted import letters
 from statehtn.found_plan import FoundPlan, PricedStep
 from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
@@ -121,7 +122,7 @@ class Atlas:
         if key not in self._numbers:
             self._numbers[key] = len(self.plans)
             total = found.plan.cost_distribution()
-            self.plans.append(AtlasPlan(_letters(len(self.plans)), found, total))
+            self.plans.append(AtlasPlan(letters(len(self.plans)), found, total))
         return self._numbers[key]
 
     def to_dict(self) -> dict[str, Any]:
@@ -260,13 +261,3 @@ def _spread(low: float, high: float, count: int) -> list[float]:
 def _rounded(value: float) -> float:
     """Return a number with three digits."""
     return float(f"{value:.3g}")
-
-
-def _letters(number: int) -> str:
-    """Return A to Z, then AA, AB and so on."""
-    text = ""
-    number += 1
-    while number:
-        number, rest = divmod(number - 1, 26)
-        text = chr(ord("A") + rest) + text
-    return text

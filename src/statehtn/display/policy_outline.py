@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from statehtn.counted import letters
 from statehtn.display.policy_classes import Way, classes_of
 from statehtn.display.policy_words import Changes, budget, conditions, cost_text
 from statehtn.model.plan import Step
@@ -70,7 +71,7 @@ class Outline:
                 known[choice.place] = known.get(choice.place, 0) + 1
                 pending.append(choice.place)
         named = (p for p in order if self.places[p].end is None and known[p] > (1 if p else 0))
-        return {place: _letters(index) for index, place in enumerate(named)}
+        return {place: letters(index) for index, place in enumerate(named)}
 
 
 def outline(graph: PolicyGraph) -> Outline:
@@ -171,13 +172,3 @@ def _merged(choices: Sequence[Choice]) -> tuple[Choice, ...]:
         probability = math.fsum(known) if len(known) == len(some) else None
         found.append(Choice(" or ".join(dict.fromkeys(c.condition for c in some)), probability, place))
     return tuple(found)
-
-
-def _letters(index: int) -> str:
-    """Return A, B, .., Z, AA, AB, .."""
-    text = ""
-    index += 1
-    while index:
-        index, rest = divmod(index - 1, 26)
-        text = chr(ord("A") + rest) + text
-    return text
