@@ -64,6 +64,9 @@ def test_contradictions_are_named(capsys: pytest.CaptureFixture[str]) -> None:
         (["--certain", "5", "--lottery", "1:5"], 30, "it says nothing about an attitude"),
         (["--prefer", "3 over 4"], 2, "a preference is a certain cost over a lottery"),
         (["--prefer", f"much over {LOTTERY}"], 2, "is no number"),
+        (["--prefer", f"40 over {LOTTERY}"], 2, "nobody prefers that, whatever they think of risk"),
+        (["--prefer", f"{LOTTERY} over 40"], 2, "everybody prefers that, whatever they think of risk"),
+        (["--prefer", f"1 over {LOTTERY}"], 2, "everybody prefers that, whatever they think of risk"),
         (["--prefer", LOTTERY], 2, "a preference is a certain cost over a lottery"),
     ],
 )

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import statehtn
-from statehtn import Status
+from statehtn import CostDistribution, Status
 from statehtn.cli.program import main
 
 GRIPPER = ("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p1.hddl")
@@ -19,7 +19,7 @@ TREE = [
     "  if (in-hand ball) and not (hand-empty) and not (on-belt ball), 0.5:",
     "    (place ball)  cost 3",
     "    done",
-    "  if nothing changes, 0.5: go on at A",
+    "  otherwise, 0.5: go on at A",
 ]
 
 
@@ -94,7 +94,7 @@ def test_pictures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = file.read_text(encoding="utf-8")
     assert code == 0
     assert "(suck ball)" in text
-    assert "nothing changes" in text
+    assert "otherwise" in text
 
 
 @pytest.mark.parametrize(
@@ -167,6 +167,20 @@ def test_a_policy_is_asked() -> None:
     assert "pack" in str(policy.decomposition(run))
     with pytest.raises(statehtn.UsageError, match="never gets there|no run of this policy"):
         policy.decide([("torn",)], policy.network_of(start))
+    with pytest.raises(statehtn.UsageError, match="a network is a pair of tasks and their order"):
+        policy.decide([("torn",)], ())  # type: ignore[arg-type]
+    for spent in (-1, math.nan):
+        with pytest.raises(statehtn.UsageError, match="what was spent must be at least 0"):
+            policy.decide([("torn",)], policy.network_of(start), spent)
+
+
+def test_a_run_that_may_end_late_has_an_infinite_value_at_risk() -> None:
+    law = CostDistribution.of([(0.5, 1), (0.5, 3)])
+    assert statehtn.objective("evar 0.1").value(law) < 3
+    late = statehtn.policy(statehtn.read_hddl(*GRIPPER), objective="deadline 5", failure_cost=math.inf)
+    law_with_failures = late.policy.cost_distribution()
+    assert math.isinf(law_with_failures.mean)
+    assert statehtn.objective("evar 0.5").value(law_with_failures) == math.inf
 
 
 def test_the_entropic_value_at_risk() -> None:

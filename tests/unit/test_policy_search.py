@@ -69,6 +69,16 @@ def test_no_policy_is_done_for_certain() -> None:
     assert "probability 1" in (outcome.reason or "")
 
 
+def test_no_amount_is_enough_for_a_quantile() -> None:
+    """The largest probability of being done is 0.714, whatever is spent."""
+    outcome = search(BREAKS, "quantile 0.8", float("inf"))
+    assert outcome.status is Status.UNSOLVABLE
+    assert outcome.most_success == pytest.approx(0.5 / 0.7, rel=1e-9)
+    assert "probability 0.8" in (outcome.reason or "")
+    enough = search(BREAKS, "quantile 0.7", float("inf"))
+    assert (enough.status, enough.upper) == (Status.OPTIMAL, 16)  # three tries: 0.695, four: 0.7085
+
+
 def test_loops_that_cost_an_averse_agent_too_much() -> None:
     outcome = search(HALF, "averse 0.2")
     assert outcome.status is Status.UNSOLVABLE

@@ -14,7 +14,7 @@ def test_a_loop_has_a_letter() -> None:
         "  if (held cup), 0.5:",
         "    (carry cup)  cost 3",
         "    done",
-        "  if nothing changes, 0.5: go on at A",
+        "  otherwise, 0.5: go on at A",
     ]
 
 
@@ -22,10 +22,10 @@ def test_what_fails_is_said() -> None:
     assert policy_text(tries(2)).splitlines() == [
         "(try cup)  cost 1",
         "  if (held cup), 0.5: done",
-        "  if nothing changes, 0.5:",
+        "  otherwise, 0.5:",
         "    (try cup)  cost 1",
         "      if (held cup), 0.5: done",
-        "      if nothing changes, 0.5: failed: nothing is left to try",
+        "      otherwise, 0.5: failed: nothing is left to try",
     ]
 
 
@@ -134,8 +134,8 @@ def test_equal_loops_are_one_wherever_they_are_entered() -> None:
         "  if (open), 0.4:",
         "    A: (try cup)  cost 1",
         "      if (held cup), 0.5: done",
-        "      if nothing changes, 0.5:",
+        "      otherwise, 0.5:",
         "        B: (look)  cost 2",
         "        go on at A",
-        "  if nothing changes, 0.6: go on at B",
+        "  otherwise, 0.6: go on at B",
     ]

@@ -81,6 +81,9 @@ def _preference(text: str) -> tuple[Certain, CostLaw]:
     except ValueError:
         raise UsageError(f"the certain cost in '{text}' is no number") from None
     law = _lottery(that if certain[0] else this)
+    if law.least != law.most and not law.least < cost < law.most:
+        agree = "nobody" if certain[0] == (cost >= law.most) else "everybody"
+        raise UsageError(f"'{text}': {agree} prefers that, whatever they think of risk; it says nothing about alpha")
     return ((cost, math.inf) if certain[0] else (-math.inf, cost)), law
 
 

@@ -123,7 +123,7 @@ def _refuse_inputs(output: str, inputs: Iterable[str | None]) -> None:
     """Raise a `UsageError` if the output is one of the inputs."""
     for name in inputs:
         if name is not None and _are_one(output, name):
-            raise UsageError(f"--output '{output}' would replace the input '{name}'; choose another name")
+            raise UsageError(f"'{output}' would replace the input '{name}'; choose another name")
 
 
 def _are_one(first: str, second: str) -> bool:

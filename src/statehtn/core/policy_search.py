@@ -21,6 +21,8 @@ from statehtn.model.status import Status
 from statehtn.risk import Deadline, Exponential, MeanDeviation, MeanVariance, Neutral, Objective, Quantile
 from statehtn.risk.success import Success
 
+TOO_UNLIKELY = 1e-9
+"""Probabilities closer than that are not told apart."""
 HEURISTIC = "lmcut"
 """The heuristic that is taken where none is named."""
 
@@ -60,6 +62,13 @@ def search_policy(
     if not grounding.handle.solvable:
         return hopeless(objective, failure_cost)
     problem = PolicyProblem(grounding, heuristic, limits)
+    if isinstance(objective, Quantile) and failure_cost == math.inf:
+        success = SuccessPolicies(problem, TOO_UNLIKELY, None).outcome(limits)
+        if success.upper is not None and success.upper < objective.level - TOO_UNLIKELY:
+            reason = f"no policy is done with probability {objective.level:g}, whatever it spends"
+            return PolicyOutcome(
+                Status.UNSOLVABLE, None, None, None, None, success.effort, reason, most_success=success.lower
+            )
     outcome = _run_of(problem, objective, failure_cost, precision, limits, progress).outcome(limits)
     if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE:
         return outcome

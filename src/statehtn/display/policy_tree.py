@@ -6,6 +6,7 @@ from html import escape
 
 from statehtn.counted import counted
 from statehtn.display.policy_outline import MOST_NODES, Choice, Outline, Place, outline
+from statehtn.display.policy_words import OTHERWISE
 from statehtn.display.words import number
 from statehtn.model.policy_graph import End, PolicyGraph
 
@@ -60,4 +61,5 @@ def _action(place: Place) -> str:
 def choice_text(choice: Choice) -> str:
     """Return on which condition a choice is taken, with its probability, such as `if (open door), 0.9:`."""
     probability = "" if choice.probability is None else f", {number(float(f'{choice.probability:.6g}'))}"
-    return f"if {choice.condition}{probability}:"
+    condition = choice.condition if choice.condition == OTHERWISE else f"if {choice.condition}"
+    return f"{condition}{probability}:"

@@ -11,6 +11,8 @@ from statehtn.model.problem import Fact
 
 Changes = tuple[frozenset[Fact], frozenset[Fact]]
 """The facts that an outcome makes true, and those that it makes false."""
+OTHERWISE = "otherwise"
+"""The condition of an outcome of which nothing that matters tells it from the others."""
 
 
 def conditions(outcomes: Sequence[Changes]) -> dict[Changes, str]:
@@ -23,7 +25,7 @@ def conditions(outcomes: Sequence[Changes]) -> dict[Changes, str]:
     for added, deleted in outcomes:
         literals = [_text(fact) for fact in sorted(added - all_added)]
         literals += [f"not {_text(fact)}" for fact in sorted(deleted - all_deleted)]
-        texts[added, deleted] = " and ".join(literals) or "nothing changes"
+        texts[added, deleted] = " and ".join(literals) or OTHERWISE
     return texts
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from statehtn.counted import counted
 from statehtn.errors import UsageError
-from statehtn.expected import expect, items, number, whole_number
+from statehtn.expected import expect, items, number, shown, whole_number
 from statehtn.model.plan import MOST_RUNS, Plan, Step
 from statehtn.model.policy_graph import Decision, End, PolicyGraph, PolicyNode
 from statehtn.model.problem import Fact, Problem
@@ -86,10 +86,16 @@ class Policy:
             spent: what has been paid up to now, in the domain's unit; it matters to agents that look at it.
 
         Raises:
-            UsageError: a run of this policy never gets there.
+            UsageError: a run of this policy never comes to this state with this network, or these are none.
         """
         facts = frozenset(map(tuple, items(state, "the state")))
         budget = number(spent, "what was spent")
+        if not budget >= 0:
+            raise UsageError(f"what was spent must be at least 0, found {budget:g}")
+        if not (isinstance(network, tuple) and len(network) == 2):
+            raise UsageError(
+                f"a network is a pair of tasks and their order, as network_of() returns it, found {shown(network)}"
+            )
         found = [
             node
             for index in self._by_network.get(_sorted(network), ())

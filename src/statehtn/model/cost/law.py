@@ -159,7 +159,9 @@ class CostLaw(ABC):
 
         if checked_probability(level, "the level of the entropic value at risk") == 0:
             return self.mean
-        return self.most if level == 1 else entropic_value_at_risk(self, level)
+        if level == 1 or math.isinf(self.mean):
+            return self.most
+        return entropic_value_at_risk(self, level)
 
     def dominates(self, other: CostLaw, order: int = 1) -> bool:
         """Tell whether this cost is at least as good as another to every agent of a kind (stochastic dominance).
