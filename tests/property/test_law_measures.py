@@ -156,7 +156,7 @@ def test_sums_and_mixtures_are_asked_the_same() -> None:
     assert mixed.evar(0.5) > mixed.cvar(0.5)
     smooth = ScenarioCost(SCENARIOS, (GAMMA, JAM))
     assert JAM.probability_above(smooth) + smooth.probability_above(JAM) + 0.75 * (0.64 + 0.04) == pytest.approx(1)
-    with pytest.raises(UnsupportedError, match="given a scenario"):
+    with pytest.raises(UnsupportedError, match="ask for the laws that it mixes"):
         smooth.to_scipy()
 
 

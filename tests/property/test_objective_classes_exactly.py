@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from statehtn.model import CostDistribution
@@ -112,6 +112,8 @@ def test_a_function_is_valued_as_the_pieces_that_it_has(wanted: Piecewise, law: 
 def test_the_certain_cost_of_a_function_is_that_of_its_utility(alpha: float, law: CostDistribution) -> None:
     found = CallableUtility(lambda cost: -math.expm1(alpha * cost)).certainty_equivalent(law)
     expected = objective(f"averse {alpha!r}").value(law)
+    # Utilities that differ by no more than rounding, beside the largest of them, have no certain cost of their own.
+    assume(law.least == law.most or math.expm1(alpha * expected) > 1e-9 * math.expm1(alpha * law.most))
     assert found == pytest.approx(expected, rel=1e-6, abs=1e-6)
 
 

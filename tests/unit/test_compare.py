@@ -43,7 +43,9 @@ def tree(tmp_path: Path) -> Path:
         "total-order/Errands/p3.hddl": PROBLEM.replace("(home)", "(nowhere)"),
         "partial-order/Endless/pfile01-domain.hddl": ENDLESS_DOMAIN,
         "partial-order/Endless/pfile01.hddl": ENDLESS_PROBLEM,
-        "partial-order/Endless/pfile02-domain.hddl": DOMAIN.replace("0.2 (increase (total-cost) 9)", "0.2 (home)"),
+        "partial-order/Endless/pfile02-domain.hddl": DOMAIN.replace(
+            "0.2 (increase (total-cost) 9)", "0.2 (oneof (home) (home))"
+        ),
         "partial-order/Endless/pfile02.hddl": PROBLEM,
     }
     for name, text in texts.items():

@@ -119,7 +119,7 @@ def test_directories_are_no_files(inputs: list[str], tmp_path: Path, capsys: Cap
 
 
 def test_unsupported_effects(inputs: list[str], capsys: Capture) -> None:
-    Path(inputs[0]).write_text(DOMAIN.replace("0.2 (increase (total-cost) 9)", "0.2 (home)"))
+    Path(inputs[0]).write_text(DOMAIN.replace("0.2 (increase (total-cost) 9)", "0.2 (oneof (home) (home))"))
     assert main(["plan", *inputs]) == 31
     assert "unsupported" in complaint(capsys).lower()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from statehtn.errors import UsageError
-from statehtn.expected import expect, items
+from statehtn.expected import expect, items, number
 from statehtn.limits import Limits
 from statehtn.model.expect import expect_problem
 from statehtn.model.plan import Plan, Step
@@ -43,11 +43,15 @@ def sequence_cost(
     listed = steps.steps if isinstance(steps, Plan) else items(steps, "the steps")
     write = "write statehtn.Step(name, objects)"
     wanted = [expect(step, Step, "expected the steps of a sequence", write) for step in listed]
-    if not failure_cost >= 0:
-        raise UsageError(f"the failure cost must be at least 0, found {failure_cost:g}")
+    price = number(failure_cost, "the failure cost")
+    if not price >= 0:
+        raise UsageError(f"the failure cost must be at least 0, found {price:g}")
+    for step in wanted:
+        if step.action not in expect_problem(problem).domain.actions:
+            raise UsageError(f"there is no action '{step.action}'")
     limits = Limits.starting_now(time_limit)
     world = World(expect_problem(problem), limits)
-    return PolicyCost(Chain(_graph(problem, wanted, Transitions(world), limits).flat), failure_cost)
+    return PolicyCost(Chain(_graph(problem, wanted, Transitions(world), limits).flat), price)
 
 
 def _graph(problem: Problem, steps: list[Step], transitions: Transitions, limits: Limits) -> PolicyGraph:
