@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "relax/base/bits.hpp"
+#include "relax/base/rows.hpp"
+#include "relax/base/strong_components.hpp"
 #include "relax/problem/state.hpp"
 
 namespace relax {
@@ -48,61 +50,35 @@ std::span<std::uint64_t> TaskReads::add_component() {
     return std::span(masks_).last(words_);
 }
 
-// Tarjan's algorithm (1972) without recursion: components are closed after all that they lead to.
+// Tasks that lead to each other read the same. What a component leads to is closed before it.
 void TaskReads::find_components(const GroundProblem& problem, Limits& limits) {
-    struct Visit {
-        TaskId task;
-        std::uint32_t method;   // of the task's, the one looked at
-        std::uint32_t subtask;  // of it, the next one to look at
-    };
-    std::vector<std::uint32_t> number(problem.task_count(), kUnvisited);
-    std::vector<std::uint32_t> lowest(problem.task_count(), kUnvisited);
-    std::vector<Visit> visits;
-    std::vector<TaskId> stack;
-    std::uint32_t next_number = 0;
-    const auto enter = [&](TaskId task) {
-        number[task] = lowest[task] = next_number++;
-        stack.push_back(task);
-        visits.push_back({task, 0, 0});
-    };
-    for (const TaskId root : problem.compounds()) {
-        if (number[root] == kUnvisited) {
-            enter(root);
-        }
-        while (!visits.empty()) {
+    const auto first = static_cast<std::uint32_t>(problem.action_count());
+    Rows<std::uint32_t> below;  // by compound task: the compound tasks in its methods
+    for (const TaskId task : problem.compounds()) {
+        for (const MethodId method : problem.methods_of(task)) {
             limits.stop_if_reached();
-            Visit& visit = visits.back();
-            const TaskId task = visit.task;
-            const auto methods = problem.methods_of(task);
-            if (visit.method < methods.size()) {
-                const auto subtasks = problem.method_subtasks[methods[visit.method]];
-                if (visit.subtask == subtasks.size()) {
-                    ++visit.method;
-                    visit.subtask = 0;
-                    continue;
+            for (const TaskId subtask : problem.method_subtasks[method]) {
+                if (!problem.is_primitive(subtask)) {
+                    below.push(subtask - first);
                 }
-                const TaskId subtask = subtasks[visit.subtask++];
-                if (problem.is_primitive(subtask) || component_[subtask] != kUnvisited) {
-                    continue;
-                }
-                if (number[subtask] == kUnvisited) {
-                    enter(subtask);
-                } else {
-                    lowest[task] = std::min(lowest[task], number[subtask]);
-                }
-                continue;
-            }
-            visits.pop_back();
-            if (!visits.empty()) {
-                lowest[visits.back().task] = std::min(lowest[visits.back().task], lowest[task]);
-            }
-            if (lowest[task] == number[task]) {
-                const auto first = std::ranges::find(stack, task);
-                close_component(problem, std::span(first, stack.end()), limits);
-                stack.erase(first, stack.end());
             }
         }
+        below.finish_row();
     }
+    std::vector<TaskId> members;
+    StrongComponents().find(
+        static_cast<std::uint32_t>(problem.compound_count()),
+        [&](std::uint32_t compound) {
+            limits.stop_if_reached();
+            return below[compound];
+        },
+        [&](std::span<const std::uint32_t> compounds) {
+            members.clear();
+            for (const std::uint32_t compound : compounds) {
+                members.emplace_back(first + compound);
+            }
+            close_component(problem, members, limits);
+        });
 }
 
 void TaskReads::close_component(const GroundProblem& problem, std::span<const TaskId> members, Limits& limits) {

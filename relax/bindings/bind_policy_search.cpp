@@ -16,8 +16,8 @@
 
 #include "bindings.hpp"
 #include "id_caster.hpp"
+#include "node_contents.hpp"
 #include "python_limits.hpp"
-#include "relax/base/bits.hpp"
 #include "relax/policies/network_source.hpp"
 #include "relax/policies/policy_trace.hpp"
 #include "relax/policies/spending_source.hpp"
@@ -32,7 +32,6 @@ using Amounts = std::vector<double>;
 using Seconds = std::optional<double>;
 using Bytes = std::optional<std::size_t>;
 using Steps = std::optional<std::uint64_t>;
-using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 relax::HeuristicInfo admissible(std::string_view name) {
     relax::HeuristicInfo heuristic = relax::heuristic_named(name);
@@ -50,10 +49,9 @@ public:
               const std::vector<bool>& free_actions, const relax::SeenCosts& seen, bool only_done_runs_pay)
         : priced_(priced), options_(options), probabilities_(std::move(probabilities)) {
         const auto& problem = priced.problem;
-        if (probabilities_.size() != problem.action_count() || free_actions.size() != problem.action_count() ||
-            (!seen.actions.empty() && seen.actions.size() != problem.action_count()) ||
-            (!seen.parts.empty() && seen.parts.size() != problem.cost_part_count())) {
-            throw std::invalid_argument("there must be one entry for each action and for each cost part");
+        check_entries(problem, free_actions, seen);
+        if (probabilities_.size() != problem.action_count()) {
+            throw std::invalid_argument("there must be one probability for each action");
         }
         progression_.emplace(problem, free_actions, seen, relax::PolicyOptions{{}, only_done_runs_pay}, limits_);
     }
@@ -132,32 +130,17 @@ public:
         return *trace_;
     }
     std::vector<relax::FactId> facts(std::uint32_t node) {
-        std::vector<relax::FactId> facts;
-        relax::for_each_bit(progression_->states()[source_->nodes().state(place(node).pair)],
-                            [&](std::size_t fact) { facts.emplace_back(fact); });
-        return facts;
+        return facts_in(progression_->states()[source_->nodes().state(place(node).pair)]);
     }
     // Those that matter from there on, true or false.
     std::vector<relax::FactId> known(std::uint32_t node) {
         if (!relevant_) {
             relevant_.emplace(priced_.problem, limits_);
         }
-        std::vector<relax::FactId> facts;
-        const auto row = relevant_->of(progression_->networks(), source_->nodes().network(place(node).pair));
-        relax::for_each_bit(row, [&](std::size_t fact) { facts.emplace_back(fact); });
-        return facts;
+        return facts_in(relevant_->of(progression_->networks(), source_->nodes().network(place(node).pair)));
     }
     std::vector<relax::TaskId> tasks(std::uint32_t node) { return ordered(node).tasks; }
-    Pairs ordering(std::uint32_t node) {
-        const relax::OrderedTasks& found = ordered(node);
-        Pairs pairs;
-        for (std::uint32_t later = 0; later < found.tasks.size(); ++later) {
-            relax::for_each_bit(found.row(later), [&](std::size_t earlier) {
-                pairs.emplace_back(static_cast<std::uint32_t>(earlier), later);
-            });
-        }
-        return pairs;
-    }
+    OrderedPairs ordering(std::uint32_t node) { return ordered_pairs(ordered(node)); }
     // None where it is used up.
     std::optional<relax::AmountLeft> left(std::uint32_t node) {
         const relax::AmountLeft left = place(node).left;

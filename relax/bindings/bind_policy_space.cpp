@@ -14,8 +14,8 @@
 
 #include "bindings.hpp"
 #include "id_caster.hpp"
+#include "node_contents.hpp"
 #include "python_limits.hpp"
-#include "relax/base/bits.hpp"
 #include "relax/progression/policy_space.hpp"
 
 namespace nb = nanobind;
@@ -25,7 +25,6 @@ namespace {
 
 using Outcome = std::tuple<std::uint32_t, std::optional<relax::ActionId>, std::vector<relax::CostPartId>>;
 using Decision = std::tuple<std::uint32_t, std::optional<relax::MethodId>, std::vector<Outcome>>;
-using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 // The whole space of a problem, and the progression that its nodes are of.
 class Space {
@@ -35,14 +34,11 @@ public:
           bool stubborn_sets, bool forget_facts, bool lone_members, bool only_done_runs_pay, std::size_t most_nodes,
           std::optional<double> seconds, std::optional<std::size_t> memory_bytes, std::optional<std::uint64_t> steps)
         : problem_(problem), limits_(python_limits(seconds, memory_bytes, steps)) {
-        if (free_actions.size() != problem.action_count() ||
-            (!seen_actions.empty() && seen_actions.size() != problem.action_count()) ||
-            (!seen_parts.empty() && seen_parts.size() != problem.cost_part_count())) {
-            throw std::invalid_argument("there must be one entry for each action and for each cost part");
-        }
+        const relax::SeenCosts seen{seen_actions, seen_parts};
+        check_entries(problem, free_actions, seen);
         const nb::gil_scoped_release no_gil;
         stop_ = relax::run_within_limits([&] {
-            progression_.emplace(problem, free_actions, relax::SeenCosts{seen_actions, seen_parts},
+            progression_.emplace(problem, free_actions, seen,
                                  relax::PolicyOptions{{skip_dead_methods, stubborn_sets, forget_facts, lone_members},
                                                       only_done_runs_pay},
                                  limits_);
@@ -57,26 +53,16 @@ public:
 
     std::vector<relax::FactId> facts(std::uint32_t node) const {
         check(node, node_count());
-        std::vector<relax::FactId> facts;
-        relax::for_each_bit(progression_->states()[space_->state(node)],
-                            [&](std::size_t fact) { facts.emplace_back(fact); });
-        return facts;
+        return facts_in(progression_->states()[space_->state(node)]);
     }
     std::vector<relax::TaskId> tasks(std::uint32_t node) {
         check(node, node_count());
         return progression_->ordered_tasks(space_->network(node)).tasks;
     }
     // Pairs of indices into the tasks; transitively closed.
-    Pairs ordering(std::uint32_t node) {
+    OrderedPairs ordering(std::uint32_t node) {
         check(node, node_count());
-        const relax::OrderedTasks& ordered = progression_->ordered_tasks(space_->network(node));
-        Pairs pairs;
-        for (std::uint32_t later = 0; later < ordered.tasks.size(); ++later) {
-            relax::for_each_bit(ordered.row(later), [&](std::size_t earlier) {
-                pairs.emplace_back(static_cast<std::uint32_t>(earlier), later);
-            });
-        }
-        return pairs;
+        return ordered_pairs(progression_->ordered_tasks(space_->network(node)));
     }
     std::vector<Decision> decisions(std::uint32_t node) const {
         check(node, expanded_count());

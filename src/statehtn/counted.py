@@ -1,6 +1,8 @@
-"""Numbers of things in words, letters for them, and long texts in short."""
+"""Numbers of things in words, letters for them, numbers for JSON, and long texts in short."""
 
 from __future__ import annotations
+
+import math
 
 MOST_CHARACTERS = 80
 
@@ -13,6 +15,11 @@ def counted(number: int, noun: str) -> str:
 def brief(text: str) -> str:
     """Return a text, cut where it is long."""
     return text if len(text) <= MOST_CHARACTERS else f"{text[: MOST_CHARACTERS - 3]}..."
+
+
+def finite(number: float | None) -> float | None:
+    """Return a number as JSON can say it: None, which is null there, for what is infinite or none."""
+    return number if number is not None and math.isfinite(number) else None
 
 
 def letters(index: int) -> str:

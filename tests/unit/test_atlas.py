@@ -150,6 +150,15 @@ def test_a_limit_leaves_what_is_known_and_says_what_is_open() -> None:
         assert "The map is not certified everywhere" in found.to_html()
 
 
+def test_a_map_of_seeking_agents_alone(p1: Problem) -> None:
+    found = statehtn.survey(p1, -2, -0.1)
+    assert found.mildest == found.of_piece[-1]
+    assert [one.status for one in found.frontiers] == [Status.OPTIMAL] * 3
+    pytest.importorskip("jinja2")
+    pytest.importorskip("matplotlib")
+    assert found.to_html().count('class="card"') == len(found.plans)
+
+
 def test_the_axis_reaches_both_ends_and_comes_back(atlas: statehtn.Atlas) -> None:
     axis = AlphaAxis.of(atlas.map)
     places = axis.places(21)

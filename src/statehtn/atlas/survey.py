@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from statehtn.counted import letters
+from statehtn.counted import finite, letters
 from statehtn.found_plan import FoundPlan, PricedStep
 from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
@@ -56,7 +56,7 @@ class AtlasPlan:
             "mean": total.mean,
             "deviation": total.standard_deviation,
             "least": total.least,
-            "most": total.most if math.isfinite(total.most) else None,
+            "most": finite(total.most),
             "quantiles": {str(level): total.quantile(level) for level in (0.05, 0.5, 0.95)},
             "cvar": {str(LEVEL): total.cvar(LEVEL)},
         }
@@ -124,6 +124,12 @@ class Atlas:
             total = found.plan.cost_distribution()
             self.plans.append(AtlasPlan(letters(len(self.plans)), found, total))
         return self._numbers[key]
+
+    @property
+    def mildest(self) -> int:
+        """The index of the plan of the neutral agent, or of the one on the map that is nearest to it."""
+        pieces = self.map.pieces
+        return self.of_piece[min(range(len(pieces)), key=lambda at: max(pieces[at].low, -pieces[at].high, 0.0))]
 
     def to_dict(self) -> dict[str, Any]:
         """Return the atlas as plain data: what `statehtn atlas --json` prints."""
@@ -193,8 +199,7 @@ def survey(
 
 
 def _add_frontiers(atlas: Atlas, planner: Planner, limits: Limits, how: dict[str, Any]) -> None:
-    neutral = next(plan for piece, plan in zip(atlas.map.pieces, atlas.of_piece, strict=True) if piece.high >= 0)
-    budget = _rounded(atlas.plans[neutral].total.quantile(0.75))
+    budget = _rounded(atlas.plans[atlas.mildest].total.quantile(0.75))
     risks = [f"cvar {LEVEL:g}", f"deadline {budget:g}", "deviation"]
     for rank, risk in enumerate(risks):
         seconds = _seconds(limits, SHARE_OF_FRONTIERS / (len(risks) - rank))

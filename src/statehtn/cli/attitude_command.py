@@ -9,6 +9,7 @@ from typing import Any
 
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.streams import emit
+from statehtn.counted import finite
 from statehtn.errors import InputError, UsageError
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
@@ -105,9 +106,6 @@ def _agent(found: Elicited) -> str:
 
 
 def _data(found: Elicited) -> dict[str, Any]:
-    def finite(alpha: float) -> float | None:
-        return alpha if math.isfinite(alpha) else None
-
     return {
         "alpha_from": finite(found.low),
         "alpha_to": finite(found.high),

@@ -7,6 +7,7 @@ import io
 import json
 from typing import TextIO
 
+from statehtn.counted import finite
 from statehtn.hddl.plan_format import write_plan
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.problem import Problem
@@ -39,8 +40,7 @@ def _csv(result: Result) -> str:
     writer.writerow(COLUMNS)
     for number, priced in enumerate(result.steps, 1):
         law = priced.law
-        most = law.most if law.most < float("inf") else None
         outcomes = " ".join(f"{p!r}:{cost!r}" for p, cost in law.outcomes) if isinstance(law, CostDistribution) else law
         name = priced.step.action, " ".join(priced.step.arguments)
-        writer.writerow((number, *name, priced.expected_cost, priced.risk_cost, law.least, most, outcomes))
+        writer.writerow((number, *name, priced.expected_cost, priced.risk_cost, law.least, finite(law.most), outcomes))
     return text.getvalue().rstrip("\n")

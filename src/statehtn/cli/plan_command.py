@@ -15,7 +15,6 @@ from statehtn.cli.shared_options import objective_in
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
 from statehtn.compatible import NOTHING, switches_in
 from statehtn.core.heuristics import PORTFOLIO
-from statehtn.display.words import ending
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
@@ -184,4 +183,6 @@ def _print(result: Result, problem: Problem | None, options: argparse.Namespace,
     if text is not None:
         (say if beside else emit)(text, raw=options.format == "table")
     elif not result:
+        from statehtn.display.words import ending
+
         say(ending(result))

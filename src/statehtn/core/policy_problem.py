@@ -11,7 +11,6 @@ from statehtn.core.grounding import Grounding
 from statehtn.core.pricing import Pricing, RiskCost, price
 from statehtn.core.scale import Scale
 from statehtn.limits import Limits
-from statehtn.model import CostLaw
 from statehtn.risk.neutral import Neutral
 
 
@@ -37,12 +36,7 @@ class PolicyProblem:
     @cached_property
     def free_actions(self) -> list[bool]:
         """By ground action: whether it certainly costs nothing."""
-        grounding = self.grounding
-        free_parts = [law.most == 0 for law in grounding.part_laws]
-        return [
-            law.most == 0 and all(free_parts[part] for part in range(*grounding.handle.cost_parts(action)))
-            for action, law in enumerate(grounding.laws)
-        ]
+        return free_actions(self.grounding)
 
     @cached_property
     def means(self) -> Prices:
@@ -71,13 +65,8 @@ class PolicyProblem:
             only_done_runs_pay: whether it does not matter what a run has cost that is not done.
             sees_costs: whether what comes next may depend on what actions have cost.
         """
-        actions, parts = (
-            ([_is_uncertain(law) for law in laws] if sees_costs else [])
-            for laws in (self.grounding.laws, self.grounding.part_laws)
-        )
-        return _relax.PolicyRun(
-            handle, options, self.probabilities, self.free_actions, actions, parts, only_done_runs_pay
-        )
+        seen = uncertain_costs(self.grounding) if sees_costs else ([], [])
+        return _relax.PolicyRun(handle, options, self.probabilities, self.free_actions, *seen, only_done_runs_pay)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,5 +90,16 @@ def _costs(prices: Iterable[RiskCost]) -> list[float]:
     return [price.cost for price in prices]
 
 
-def _is_uncertain(law: CostLaw) -> bool:
-    return law.least != law.most
+def free_actions(grounding: Grounding) -> list[bool]:
+    """Return for each ground action whether it certainly costs nothing."""
+    free_parts = [law.most == 0 for law in grounding.part_laws]
+    return [
+        law.most == 0 and all(free_parts[part] for part in range(*grounding.handle.cost_parts(action)))
+        for action, law in enumerate(grounding.laws)
+    ]
+
+
+def uncertain_costs(grounding: Grounding) -> tuple[list[bool], list[bool]]:
+    """Return for each ground action, and for each part of a cost, whether what it costs tells something."""
+    actions, parts = ([law.least != law.most for law in laws] for laws in (grounding.laws, grounding.part_laws))
+    return actions, parts

@@ -63,9 +63,7 @@ class PolicyRun(ABC):
 
     def start(self, run: _relax.PolicyRun, limits: Limits, left: int = 0) -> _relax.PolicyStatistics:
         """Let a run begin, or go on from another amount; returns its statistics."""
-        before = self.effort
-        watch = None if self.watch is None else lambda statistics: self._report(before, statistics)
-        result = run.run(left, *limits.left(), watch)
+        result = run.run(left, *limits.left(), None if self.watch is None else self._report)
         self.effort = _effort(result.statistics)
         self.stopped = None if result.stop is None else STOPPED[result.stop]
         self.is_infinite = self.is_infinite or result.is_infinite
@@ -95,7 +93,7 @@ class PolicyRun(ABC):
         stopped = None if is_optimal else self.stopped
         return PolicyOutcome(status, stopped, low, high, reader.graph, self.effort, plan_of=reader.plan_of)
 
-    def _report(self, before: SearchEffort, statistics: _relax.PolicyStatistics) -> None:  # noqa: ARG002
+    def _report(self, statistics: _relax.PolicyStatistics) -> None:
         assert self.watch is not None
         low, high = self.values(statistics.lower, statistics.upper)
         self.watch(Progress(time.monotonic() - self.started, _effort(statistics), low, high))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -18,18 +17,16 @@ from statehtn.core.progress import SearchProgress
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.limits import SECONDS_TO_READ, Limits
 from statehtn.model.status import Status
-from statehtn.risk import Deadline, Exponential, MeanDeviation, MeanVariance, Neutral, Objective, Quantile
-from statehtn.risk.success import Success
+from statehtn.risk import Exponential, Neutral, Success
+from statehtn.risk.policy_objectives import PolicyObjective, check_failure_cost, check_has_policies
 
-TOO_UNLIKELY = 1e-9
-"""Probabilities closer than that are not told apart."""
 HEURISTIC = "lmcut"
 """The heuristic that is taken where none is named."""
 
 
 def search_policy(
     grounding: Grounding,
-    objective: Objective | Success,
+    objective: PolicyObjective,
     *,
     failure_cost: float | None = None,
     adaptive: bool = False,
@@ -62,21 +59,14 @@ def search_policy(
     if not grounding.handle.solvable:
         return hopeless(objective, failure_cost)
     problem = PolicyProblem(grounding, heuristic, limits)
-    if isinstance(objective, Quantile) and failure_cost == math.inf:
-        success = SuccessPolicies(problem, TOO_UNLIKELY, None).outcome(limits)
-        if success.upper is not None and success.upper < objective.level - TOO_UNLIKELY:
-            reason = f"no policy is done with probability {objective.level:g}, whatever it spends"
-            return PolicyOutcome(
-                Status.UNSOLVABLE, None, None, None, None, success.effort, reason, most_success=success.lower
-            )
     outcome = _run_of(problem, objective, failure_cost, precision, limits, progress).outcome(limits)
-    if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE:
+    if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE or outcome.reason is not None:
         return outcome
     return _with_reason(problem, outcome, objective, limits)
 
 
 def check_that_it_has_policies(
-    grounding: Grounding, objective: Objective | Success, failure_cost: float | None, adaptive: bool
+    grounding: Grounding, objective: PolicyObjective, failure_cost: float | None, adaptive: bool
 ) -> None:
     """Raise an error if there is no best policy to look for.
 
@@ -84,34 +74,25 @@ def check_that_it_has_policies(
         UnsupportedError: the objective or the problem has no policies; the message says why.
         UsageError: the failure cost is out of its range.
     """
-    if isinstance(objective, MeanVariance | MeanDeviation):
-        raise UnsupportedError(
-            f"'{objective}' has no policies: to pay more on good days would lower its value, so that what is best from"
-            " a state on depends on what could have come instead"
-        )
+    check_has_policies(objective)
     if not isinstance(objective, Success | Neutral | Exponential) and type(objective) not in DISUTILITIES:
         raise UnsupportedError(f"policies by '{objective}' are not supported")
     if grounding.has_scenarios:
         raise UnsupportedError(
-            "a policy is not offered where costs depend on hidden facts: to see a cost tells about them, so that what"
-            " is best depends on all costs that were seen"
+            "costs of this problem depend on hidden facts, so that seeing a cost tells about others: there are no "
+            "policies for that (it is planning under partial observation); plan without, and plan again from where the "
+            "agent is"
         )
     if not grounding.handle.has_outcomes and not adaptive:
         raise UsageError("each action has one outcome, so that a plan is the best policy; --adaptive looks for one"
                          " that depends on what was spent")  # fmt: skip
-    if failure_cost is None:
-        return
-    if isinstance(objective, Success):
-        raise UsageError("to be done is all that 'success' asks for: a failure has no cost")
-    if math.isnan(failure_cost) or failure_cost < 0:
-        raise UsageError(f"the failure cost must be at least 0, found {failure_cost:g}")
-    if math.isinf(failure_cost) and not isinstance(objective, Deadline | Quantile):
-        raise UsageError(f"the failure cost may be infinite for deadlines and quantiles only, found '{objective}'")
+    if failure_cost is not None:
+        check_failure_cost(failure_cost, objective)
 
 
 def _run_of(
     problem: PolicyProblem,
-    objective: Objective | Success,
+    objective: PolicyObjective,
     failure_cost: float | None,
     precision: float,
     limits: Limits,
@@ -127,7 +108,7 @@ def _run_of(
 
 
 def _with_reason(
-    problem: PolicyProblem, outcome: PolicyOutcome, objective: Objective | Success, limits: Limits
+    problem: PolicyProblem, outcome: PolicyOutcome, objective: PolicyObjective, limits: Limits
 ) -> PolicyOutcome:
     """Return the outcome with the reason why no policy has a finite value."""
     success = most_success(problem, limits.with_grace(SECONDS_TO_READ))

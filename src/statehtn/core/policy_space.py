@@ -7,13 +7,12 @@ from fractions import Fraction
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import STOPPED, Grounding
+from statehtn.core.policy_laws import BranchLaws
+from statehtn.core.policy_problem import free_actions, uncertain_costs
 from statehtn.errors import UnsupportedError
 from statehtn.limits import LimitReached, Limits
-from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.cost.scenario_cost import sum_of
 
-FREE = CostDistribution.certain(0.0)
 MOST_NODES = 1_000_000
 Edge = tuple[Fraction, CostLaw, int]
 """What may come of a decision: its probability, the law of its cost, the node that it leads to."""
@@ -45,15 +44,11 @@ def policy_space(grounding: Grounding, limits: Limits = Limits()) -> PolicySpace
     """
     if not grounding.handle.solvable:  # nothing is left of the initial network
         return PolicySpace([[]], [False])
-    laws, parts = grounding.laws, grounding.part_laws
-    due_parts = [parts[slice(*grounding.handle.cost_parts(action))] for action in range(len(laws))]
-    free = [law.most == 0 and not due for law, due in zip(laws, due_parts, strict=True)]
-    seen = [law.least < law.most for law in laws], [law.least < law.most for law in parts]
     seconds, memory_bytes, steps = limits.left()
     space = _relax.PolicySpace(
         grounding.handle,
-        free,
-        *seen,
+        free_actions(grounding),
+        *uncertain_costs(grounding),
         most_nodes=MOST_NODES,
         seconds=seconds,
         memory_bytes=memory_bytes,
@@ -66,22 +61,18 @@ def policy_space(grounding: Grounding, limits: Limits = Limits()) -> PolicySpace
             f"more than {MOST_NODES} states with their networks can be reached, perhaps infinitely many, too many to "
             "be written; export the best policy instead (--policy)"
         )
-    known: dict[tuple[int, tuple[int, ...]], CostLaw] = {}
-
-    def law_of(action: int | None, due: list[int]) -> CostLaw:
-        key = -1 if action is None else action, tuple(due)
-        if key not in known:
-            base = FREE if action is None else laws[action]
-            known[key] = sum_of([base, *(parts[part] for part in due)]) if due else base
-        return known[key]
-
+    laws = BranchLaws(grounding)
     choices: list[list[list[Edge]]] = []
     for node in range(space.node_count):
         limits.check()
         choices.append(
             [
                 [
-                    (Fraction(1) if action is None else grounding.probabilities[action], law_of(action, due), other)
+                    (
+                        Fraction(1) if action is None else grounding.probabilities[action],
+                        laws.of((action, tuple(due))),
+                        other,
+                    )
                     for other, action, due in outcomes
                 ]
                 for _, _, outcomes in space.decisions(node)

@@ -14,6 +14,7 @@ import statehtn._relax as _relax
 from statehtn.core.law_grid import Grid, LawGrid
 from statehtn.core.policy_laws import SpendingLaws
 from statehtn.core.policy_outcome import PolicyOutcome
+from statehtn.core.policy_prices import SuccessPolicies
 from statehtn.core.policy_problem import PolicyProblem
 from statehtn.core.policy_run import PolicyRun, Watch
 from statehtn.errors import UnsupportedError
@@ -24,6 +25,8 @@ from statehtn.risk import ConditionalValueAtRisk, Deadline, MeanCvar, Objective,
 
 MOST_LEFT = 2**31 - 2
 """Steps of an amount."""
+TOO_UNLIKELY = 1e-9
+"""Probabilities closer than that are not told apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +134,8 @@ class SpendingPolicies(PolicyRun):
             )
         self.step = self.grid.grid.step
         self.disutility = DISUTILITIES[type(objective)](objective, self.step)
-        only_done_runs_pay = failure_cost is None or math.isinf(failure_cost)
+        self.may_fail_for_ever = failure_cost == math.inf
+        only_done_runs_pay = failure_cost is None or self.may_fail_for_ever
         self.run = problem.run(self.options, self.grid.least, only_done_runs_pay=only_done_runs_pay, sees_costs=True)
         failure = None if failure_cost is None else failure_cost / float(self.step)
         self.run.take_laws(
@@ -150,7 +154,7 @@ class SpendingPolicies(PolicyRun):
         """Search, and return what was found."""
         match self.objective:
             case Quantile(level=level):
-                return self._quantile(level, limits)
+                return self._out_of_reach(level, limits) or self._quantile(level, limits)
             case ConditionalValueAtRisk() | MeanCvar():
                 return self._mean_cvar(self.objective, limits)
         assert self.disutility.first is not None
@@ -164,6 +168,16 @@ class SpendingPolicies(PolicyRun):
     def finish(self, found: _relax.PolicyStatistics) -> PolicyOutcome:
         """Return the outcome of the last search."""
         return self.finished(found.lower, found.upper, self.run, SpendingLaws(self.grid), found.upper < math.inf)
+
+    def _out_of_reach(self, level: float, limits: Limits) -> PolicyOutcome | None:
+        """Return that no amount is enough, where runs may fail for ever and too many of them do; None elsewhere."""
+        if not self.may_fail_for_ever:
+            return None
+        found = SuccessPolicies(self.problem, TOO_UNLIKELY, None).outcome(limits)
+        if found.upper is None or found.upper >= level - TOO_UNLIKELY:
+            return None
+        reason = f"no policy is done with probability {level:g}, whatever it spends"
+        return PolicyOutcome(Status.UNSOLVABLE, None, None, None, None, found.effort, reason, found.lower)
 
     def _quantile(self, level: float, limits: Limits) -> PolicyOutcome:
         """Find the least amount that is enough with the level's probability; more is enough, too."""

@@ -81,12 +81,18 @@ def _without_methods(problem: Problem) -> Iterator[tuple[str, str]]:
     yield from ((task, users[task]) for task in problem.domain.tasks if task in users and task not in decomposed)
 
 
+def predicates_made_true(problem: Problem) -> set[str]:
+    """Return the predicates of which the initial state has a fact, or an action makes one true."""
+    true = {fact[0] for fact in problem.initial_state}
+    effects = (effect for action in problem.domain.actions.values() for effect in action.all_effects)
+    true.update(effect.atom.predicate for effect in effects if effect.positive)
+    return true
+
+
 def _needed_in_vain(problem: Problem) -> Iterator[tuple[Owner, Atom]]:
     """Yield the preconditions that never hold and that the initial network cannot do without."""
     domain = problem.domain
-    true = {fact[0] for fact in problem.initial_state}
-    effects = (effect for action in domain.actions.values() for effect in action.all_effects)
-    true.update(effect.atom.predicate for effect in effects if effect.positive)
+    true = predicates_made_true(problem)
     lacking: dict[Owner, Atom] = {}
     owners: list[tuple[Kind, Action | Method]] = [("task", action) for action in domain.actions.values()]
     owners += [("method", method) for method in domain.methods.values()]

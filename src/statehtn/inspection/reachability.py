@@ -13,6 +13,7 @@ from statehtn.errors import Place, StateHtnError
 from statehtn.explanation.reason import Reason
 from statehtn.explanation.reasons import Reasoner
 from statehtn.explanation.relaxation import Relaxation, relaxations
+from statehtn.hddl.dead_ends import predicates_made_true
 from statehtn.hddl.source_map import ANYTHING
 from statehtn.inspection.finding import Finding, Level
 from statehtn.inspection.subject import Subject, whole_condition
@@ -182,13 +183,7 @@ def _never_true(subject: Subject) -> Iterator[Finding]:
     """Yield the predicates that are needed somewhere, and that neither the initial state nor an action makes true."""
     problem = subject.problem
     assert problem is not None
-    true = {fact[0] for fact in problem.initial_state}
-    true.update(
-        effect.atom.predicate
-        for action in subject.domain.actions.values()
-        for effect in action.all_effects
-        if effect.positive
-    )
+    true = predicates_made_true(problem)
     told: set[str] = set()
     for kind, schema in subject.schemas:
         for part in conjuncts(whole_condition(schema)):

@@ -17,12 +17,12 @@ from statehtn.policies.entries import node_entry
 from statehtn.policies.simulation import SimulatedRuns, simulate
 from statehtn.policies.total_cost import PolicyCost
 from statehtn.policies.trajectory import Trajectory, drawn
-from statehtn.risk import Objective, Success
+from statehtn.risk import Success
+from statehtn.risk.policy_objectives import PolicyObjective
 
 if TYPE_CHECKING:
     from statehtn.model.decomposition_tree import DecompositionTree
 
-PolicyObjective = Objective | Success
 Network = tuple[tuple[Step, ...], tuple[tuple[int, int], ...]]
 """A remaining network: its tasks, and pairs (i, j) of their indices, i before j."""
 PlanOf = Callable[[Sequence[int]], Plan]

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from statehtn.counted import finite
 from statehtn.errors import UnsupportedError
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.total import as_decimal
@@ -54,8 +55,7 @@ def chain_of(flat: FlatPolicy, failure: float | None) -> MarkovModel:
     for node in range(len(flat)):
         edges = [Edge(flat.probabilities[b], flat.laws[b], flat.successors[b]) for b in flat.branches(node)]
         choices.append([edges] if edges else [])
-    finite = failure if failure is not None and math.isfinite(failure) else None
-    return MarkovModel(choices, [end is End.DONE for end in flat.ends], finite, is_chain=True)
+    return MarkovModel(choices, [end is End.DONE for end in flat.ends], finite(failure), is_chain=True)
 
 
 def prism_text(model: MarkovModel, title: str) -> Iterator[str]:

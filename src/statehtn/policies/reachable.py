@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
-
 from statehtn.core.grounding import Grounding
 from statehtn.core.policy_space import policy_space
+from statehtn.counted import finite
 from statehtn.limits import Limits
 from statehtn.policies.prism import Edge, MarkovModel
 
@@ -27,5 +26,4 @@ def reachable_model(grounding: Grounding, failure: float | None, limits: Limits)
         [[Edge(p, law, other) for p, law, other in edges if p > 0] for edges in decisions]
         for decisions in space.choices
     ]
-    finite = failure if failure is not None and math.isfinite(failure) else None
-    return MarkovModel(choices, space.done, finite)
+    return MarkovModel(choices, space.done, finite(failure))

@@ -7,14 +7,15 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from statehtn.counted import counted
+from statehtn.counted import counted, finite
 from statehtn.effort import Statistics
 from statehtn.errors import UnsupportedError
 from statehtn.found_plan import FoundPlan
 from statehtn.model.status import Status
 from statehtn.policies.policy import Policy
-from statehtn.policies.settings import PolicyObjective, PolicySettings
+from statehtn.policies.settings import PolicySettings
 from statehtn.risk import Success, certainty_equivalent
+from statehtn.risk.policy_objectives import PolicyObjective
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,8 +159,8 @@ class PolicyResult:
         return None if low is None or high is None else high - low
 
     def _bounds(self) -> tuple[float | None, float | None]:
-        value = _finite(self.value)
-        bound = _finite(self.bound)
+        value = finite(self.value)
+        bound = finite(self.bound)
         if isinstance(self.objective, Success):
             return value, bound if bound is None or value is None else max(bound, value)
         return bound if bound is None or value is None else min(bound, value), value
@@ -175,14 +176,14 @@ class PolicyResult:
             "alpha": self.settings.alpha,
             "failure_cost": "inf" if failure is not None and math.isinf(failure) else failure,
             "adaptive": self.settings.adaptive,
-            "value": _finite(self.value),
+            "value": finite(self.value),
             "value_unit": self.value_unit,
             "lower_bound": self.lower_bound,
             "upper_bound": self.upper_bound,
             "gap": self.gap,
             "success_probability": self.success_probability,
-            "expected_cost": _finite(self.expected_cost),
-            "risk_cost": _finite(self.risk_cost),
+            "expected_cost": finite(self.expected_cost),
+            "risk_cost": finite(self.risk_cost),
             "policy": None if self.policy is None else self.policy.to_dict(),
             "looking": None if self.looking is None else self.looking.to_dict(),
             "reason": self.reason,
@@ -191,7 +192,3 @@ class PolicyResult:
             "stopped": None if self.stopped is None else self.stopped.value,
             "statistics": self.statistics.to_dict(),
         }
-
-
-def _finite(value: float | None) -> float | None:
-    return None if value is None or not math.isfinite(value) else value

@@ -10,7 +10,7 @@ from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_search import search_policy
 from statehtn.core.progress import SearchProgress
 from statehtn.effort import Meter
-from statehtn.errors import UnsupportedError, UsageError
+from statehtn.errors import UsageError
 from statehtn.found_plan import SECONDS_TO_VALIDATE
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.log import log
@@ -37,7 +37,7 @@ def find_policy(
         UnsupportedError: costs hang together by hidden facts.
         InputError: a probability of an outcome is none.
     """
-    run = PolicyRun(session, settings, limits, progress)
+    run = PolicyPipeline(session, settings, limits, progress)
     try:
         run.search()
         run.check()
@@ -48,7 +48,7 @@ def find_policy(
     return run.result()
 
 
-class PolicyRun:
+class PolicyPipeline:
     """A run for a policy, and how far it has come.
 
     Args:
@@ -88,12 +88,6 @@ class PolicyRun:
                 "spent wherever the objective asks for it"
             )
         grounding = self.session.ground_for_policies(self.limits, self.meter)
-        if grounding.has_scenarios:
-            raise UnsupportedError(
-                "costs of this problem depend on hidden facts, so that seeing a cost tells about others: there are no "
-                "policies for that (it is planning under partial observation); plan without, and plan again from where "
-                "the agent is"
-            )
         with self.meter.timed("search"):
             self.outcome = self._searched(grounding)
         self.stopped = self.outcome.stopped

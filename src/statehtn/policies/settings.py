@@ -2,30 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-from statehtn.errors import UnsupportedError, UsageError
+from statehtn.errors import UsageError
 from statehtn.expected import number
-from statehtn.risk import (
-    Attitude,
-    AttitudeName,
-    CallableUtility,
-    Deadline,
-    Exponentials,
-    MeanDeviation,
-    MeanVariance,
-    Objective,
-    ObjectiveLike,
-    OneSwitch,
-    Quantile,
-    Success,
-    agent_in,
-    problem_class,
-)
+from statehtn.risk import Attitude, AttitudeName, ObjectiveLike, Success, agent_in, problem_class
+from statehtn.risk.policy_objectives import PolicyObjective, check_failure_cost, check_has_policies
 from statehtn.settings import DEFAULT_PRECISION, objective_of, precision_of
 
-PolicyObjective = Objective | Success
 SUCCESS = str(Success())
 """The text form of the objective that only policies have."""
 
@@ -106,17 +90,7 @@ def policy_objective(
             raise UsageError("by 'success' policies are compared by the probability of being done, for any attitude")
         return wanted if isinstance(wanted, Success) else Success()
     found = objective_of(wanted, attitude, alpha)
-    if isinstance(found, MeanVariance | MeanDeviation):
-        raise UnsupportedError(
-            f"no policy can be found by '{found}': it may prefer a larger cost to a smaller one, so that the best "
-            "decision after one outcome depends on what was decided after the others; averse, overrun or cvar "
-            "agents shun risk, too, and have policies"
-        )
-    if isinstance(found, OneSwitch | Exponentials | CallableUtility):
-        raise UnsupportedError(
-            f"policies by '{found}' are not searched for yet: what was spent matters to such an agent whatever it is; "
-            "averse, overrun, piecewise and cvar agents have policies"
-        )
+    check_has_policies(found)
     return found
 
 
@@ -127,13 +101,5 @@ def _failure_cost(given: float, objective: PolicyObjective) -> float:
         UsageError: it is negative, infinite where that says nothing, or not asked for.
     """
     cost = number(given, "the failure cost")
-    if isinstance(objective, Success):
-        raise UsageError("by 'success' failing has no cost: policies are compared by how likely it is")
-    if math.isnan(cost) or cost < 0:
-        raise UsageError(f"the failure cost must be at least 0, or 'inf', found {cost:g}")
-    if math.isinf(cost) and not isinstance(objective, Deadline | Quantile):
-        raise UsageError(
-            f"an infinite failure cost has a finite value for 'deadline' and 'quantile' only, not for '{objective}'; "
-            "without a failure cost only policies count that are done with probability 1"
-        )
+    check_failure_cost(cost, objective)
     return cost

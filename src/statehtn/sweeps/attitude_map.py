@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, overload
 
-from statehtn.counted import counted
+from statehtn.counted import counted, finite
 from statehtn.effort import Statistics
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.expected import number
@@ -247,11 +247,6 @@ def _break(sweep: AlphaSweep, at: float) -> BreakPoint:
         apart = max(abs(at) * ROUNDING, LEAST_ROUNDING / sweep.unit)
         return BreakPoint(at - apart, at + apart)
     return BreakPoint(below[-1].low.slope, above[0].high.slope)
-
-
-def finite(alpha: float) -> float | None:
-    """Return an alpha as JSON can say it: an infinite one is null."""
-    return alpha if math.isfinite(alpha) else None
 
 
 def _slope(value: object, what: str) -> float:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, overload
 
-from statehtn.counted import counted
+from statehtn.counted import counted, finite
 from statehtn.effort import Statistics
 from statehtn.limits import Limits
 from statehtn.model.status import Status
@@ -75,7 +74,7 @@ class Frontier(Sequence[dict[str, Any]]):
             "status": self.status.value,
             "risk": self.risk,
             "points": list(self),
-            "gaps": [gap if math.isfinite(gap) else None for gap in self.gaps],
+            "gaps": list(map(finite, self.gaps)),
             "runs": self.runs,
             "stopped": None if self.stopped is None else self.stopped.value,
             "statistics": self.statistics.to_dict(),

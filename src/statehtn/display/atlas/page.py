@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -195,7 +195,8 @@ def _measures(total: CostLaw) -> list[tuple[str, str]]:
 def _where(atlas: Atlas, number: int) -> list[str]:
     """Return for whom a plan is the best."""
     places = [f"alpha from {low} to {high}" for low, high, _, plan, _ in _intervals(atlas) if plan == number]
-    places += [f"the frontier of {one.risk}" for one in atlas.frontiers if number in map(atlas.number, _found(one))]
+    shown = [(one.risk, {atlas.number(point.found) for point in one.points}) for one in atlas.frontiers]
+    places += [f"the frontier of {risk}" for risk, numbers in shown if number in numbers]
     for what, choices in (("deadline", atlas.deadlines), ("wealth", atlas.wealths)):
         own = [choice.at for choice in choices if choice.plan == number]
         if own:
@@ -203,17 +204,11 @@ def _where(atlas: Atlas, number: int) -> list[str]:
     return places
 
 
-def _found(frontier: Any) -> Iterable[Any]:
-    return (point.found for point in frontier.points)
-
-
 def _neighbours(atlas: Atlas, number: int) -> list[int]:
-    """Return the plans next to a plan on the map; of one that is not there, the neutral agent's."""
+    """Return the plans next to a plan on the map; of one that is not there, the plan of the mildest agent."""
     own = [at for at, plan in enumerate(atlas.of_piece) if plan == number]
     near = {atlas.of_piece[at + step] for at in own for step in (-1, 1) if 0 <= at + step < len(atlas.of_piece)}
-    if not own:
-        at = next(at for at, piece in enumerate(atlas.map.pieces) if piece.high >= 0)
-        near = {atlas.of_piece[at]}
+    near = near if own else {atlas.mildest}
     return sorted(near - {number})
 
 

@@ -47,10 +47,10 @@ def map_picture(atlas: Atlas, axis: AlphaAxis) -> tuple[str, Frame]:
         places = axis.places(POINTS)
         lowest, highest = math.inf, -math.inf
         for piece, plan in zip(atlas.map.pieces, atlas.of_piece, strict=True):
-            values = [_finite(piece.certainty_equivalent(axis.alpha(place))) for place in places]
+            values = [_drawable(piece.certainty_equivalent(axis.alpha(place))) for place in places]
             own = [place for place in places if axis.place(piece.low) <= place <= axis.place(piece.high)]
             own = sorted({axis.place(piece.low), *own, axis.place(piece.high)})
-            best = [_finite(piece.certainty_equivalent(axis.alpha(place))) for place in own]
+            best = [_drawable(piece.certainty_equivalent(axis.alpha(place))) for place in own]
             look = PLACEHOLDERS[colour(plan)]
             axes.plot(places, values, color=look, linewidth=0.9, alpha=0.6)
             axes.plot(own, best, color=look, linewidth=3.2, solid_capstyle="butt")
@@ -133,7 +133,7 @@ def _with_frame(figure: Figure, axes: Axes, name: str, label: str) -> tuple[str,
     return svg, Frame(box.x0 * width, box.x1 * width, (1 - box.y1) * height, (1 - box.y0) * height)
 
 
-def _finite(value: float) -> float:
+def _drawable(value: float) -> float:
     return value if math.isfinite(value) else math.nan
 
 

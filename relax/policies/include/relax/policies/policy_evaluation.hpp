@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "relax/base/limits.hpp"
+#include "relax/base/strong_components.hpp"
 #include "relax/policies/envelope.hpp"
 #include "relax/policies/linear_component.hpp"
 #include "relax/policies/recursion.hpp"
-#include "relax/policies/strong_components.hpp"
 
 namespace relax {
 

@@ -1,6 +1,8 @@
-#ifndef RELAX_POLICIES_STRONG_COMPONENTS_HPP
-#define RELAX_POLICIES_STRONG_COMPONENTS_HPP
+#ifndef RELAX_BASE_STRONG_COMPONENTS_HPP
+#define RELAX_BASE_STRONG_COMPONENTS_HPP
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>

@@ -1,0 +1,55 @@
+"""By which objectives there is a best policy, and what failing may cost by them."""
+
+from __future__ import annotations
+
+import math
+
+from statehtn.errors import UnsupportedError, UsageError
+from statehtn.risk.callable_utility import CallableUtility
+from statehtn.risk.deadline import Deadline
+from statehtn.risk.exponentials import Exponentials
+from statehtn.risk.mean_deviation import MeanDeviation
+from statehtn.risk.mean_variance import MeanVariance
+from statehtn.risk.objective import Objective
+from statehtn.risk.one_switch import OneSwitch
+from statehtn.risk.quantile import Quantile
+from statehtn.risk.success import Success
+
+PolicyObjective = Objective | Success
+
+
+def check_has_policies(objective: PolicyObjective) -> None:
+    """Raise an error if no policy is searched for by an objective.
+
+    Raises:
+        UnsupportedError: the message says why.
+    """
+    if isinstance(objective, MeanVariance | MeanDeviation):
+        raise UnsupportedError(
+            f"no policy can be found by '{objective}': there are no policies that are best by an objective that may "
+            "prefer a larger cost to a smaller one, since the best decision after one outcome then depends on what was "
+            "decided after the others; averse, overrun or cvar agents shun risk, too, and have policies"
+        )
+    if isinstance(objective, OneSwitch | Exponentials | CallableUtility):
+        raise UnsupportedError(
+            f"policies by '{objective}' are not searched for yet: what was spent matters to such an agent whatever it "
+            "is; averse, overrun, piecewise and cvar agents have policies"
+        )
+
+
+def check_failure_cost(cost: float, objective: PolicyObjective) -> None:
+    """Raise an error if a run that fails cannot cost so much, on top of what it has spent.
+
+    Raises:
+        UsageError: it is negative, infinite where that says nothing, or not asked for.
+    """
+    if isinstance(objective, Success):
+        raise UsageError("by 'success' failing has no cost: policies are compared by how likely it is")
+    if math.isnan(cost) or cost < 0:
+        raise UsageError(f"the failure cost must be at least 0, or 'inf', found {cost:g}")
+    if math.isinf(cost) and not isinstance(objective, Deadline | Quantile):
+        raise UsageError(
+            "the failure cost may be infinite for deadlines and quantiles: by 'deadline' and 'quantile' only it has a "
+            f"finite value then, not by '{objective}'; without a failure cost only policies count that are done with "
+            "probability 1"
+        )
