@@ -108,12 +108,16 @@ def policy_settings_in(options: argparse.Namespace) -> PolicySettings:
     """
     from statehtn.policies.settings import PolicySettings
 
-    if options.objective is not None:
-        for option, value in (("--attitude", options.attitude), ("--alpha", options.alpha)):
-            if value is not None:
-                raise UsageError(f"--objective and {option} are two ways to say one thing; leave out {option}")
+    _check_said_once(options)
     how = options.failure_cost, options.adaptive, options.precision
     return PolicySettings.of(options.objective, options.attitude, options.alpha, *how)
+
+
+def _check_said_once(options: argparse.Namespace) -> None:
+    """Raise a `UsageError` where an objective is named in both ways."""
+    for option, value in (("--attitude", options.attitude), ("--alpha", options.alpha)):
+        if options.objective is not None and value is not None:
+            raise UsageError(f"--objective and {option} are two ways to say one thing; leave out {option}")
 
 
 def agent_of(options: argparse.Namespace) -> Utility:
@@ -131,10 +135,7 @@ def objective_in(options: argparse.Namespace) -> Objective:
     Raises:
         UsageError: there is none like that, or it is named in both ways.
     """
-    if options.objective is not None:
-        for option, value in (("--attitude", options.attitude), ("--alpha", options.alpha)):
-            if value is not None:
-                raise UsageError(f"--objective and {option} are two ways to say one thing; leave out {option}")
+    _check_said_once(options)
     return objective_of(options.objective, options.attitude, options.alpha)
 
 
