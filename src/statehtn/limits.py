@@ -163,14 +163,12 @@ def watched(limits: Limits) -> Iterator[None]:
         return
 
     def look(_signal: int, frame: FrameType | None) -> None:
-        while frame is not None:  # a module is not left half imported
-            if frame.f_code.co_filename.startswith("<frozen importlib"):
-                return
-            frame = frame.f_back
+        if not _may_be_ended(frame):
+            return
         try:
             limits.check()
         except LimitReached:
-            # Not at once again; but it may be lost, where it is raised in a destructor or a callback, say.
+            # Not at once again; but it may be lost, where it is raised in a callback of the collector, say.
             signal.setitimer(signal.ITIMER_REAL, SECONDS_TO_END, SECONDS_TO_END)
             raise
 
@@ -182,6 +180,22 @@ def watched(limits: Limits) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_REAL, *timer)
         signal.signal(signal.SIGALRM, handler)
     limits.check()
+
+
+LOSE_EXCEPTIONS = ("weakref.py", "_weakrefset.py")
+"""Files of Python with functions that are called while an object is destroyed: what they raise is printed and lost."""
+
+
+def _may_be_ended(frame: FrameType | None) -> bool:
+    """Tell whether an exception that is raised here ends what runs: not the import of a module, nor a destructor."""
+    while frame is not None:
+        code = frame.f_code
+        if code.co_filename.startswith("<frozen importlib"):
+            return False  # the module would be left half imported
+        if code.co_name == "__del__" or code.co_filename.endswith(LOSE_EXCEPTIONS):
+            return False
+        frame = frame.f_back
+    return True
 
 
 def resident_mb(process: int | None = None) -> float:

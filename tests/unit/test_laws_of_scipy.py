@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import signal
-import time
 import warnings
 from pathlib import Path
 
@@ -14,7 +12,6 @@ from scipy import special, stats
 
 from statehtn import CostDistribution, InputError, UnsupportedError, read_costs
 from statehtn.cli import main
-from statehtn.limits import LimitReached, Limits, watched
 from statehtn.model.cost.numerics.moment_generating import _integrated
 from statehtn.model.cost.numerics.quadrature import log_moment_by_quantiles
 from statehtn.model.cost.scipy_law import ScipyCost
@@ -113,40 +110,3 @@ def test_no_text_of_scipy_comes_out() -> None:
         warnings.simplefilter("error")
         found = law(stats.kappa4(2, 7, loc=5, scale=1e-3))
         assert 5 < found.exponential_mean(-1.0) < found.exponential_mean(1.0) < 5.1
-
-
-def test_a_limit_is_looked_at_while_a_library_computes() -> None:
-    handler = signal.getsignal(signal.SIGALRM)
-
-    def compute(limits: Limits) -> None:
-        begin = time.monotonic()
-        with watched(limits):
-            while time.monotonic() < begin + 30:
-                pass
-
-    begin = time.monotonic()
-    for limits in (Limits.starting_now(0.1), Limits.starting_now(memory_limit=1)):
-        with pytest.raises(LimitReached):
-            compute(limits)
-    assert time.monotonic() < begin + 25
-    assert signal.getsignal(signal.SIGALRM) is handler
-    assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
-
-
-@pytest.mark.filterwarnings("ignore:Exception ignored:pytest.PytestUnraisableExceptionWarning")
-def test_a_limit_whose_exception_is_lost_comes_again() -> None:
-    begin = time.monotonic()
-
-    class Slow:
-        def __del__(self) -> None:
-            while time.monotonic() < begin + 20:
-                pass
-
-    def compute() -> None:
-        Slow()
-        while time.monotonic() < begin + 20:
-            pass
-
-    with pytest.raises(LimitReached), watched(Limits.starting_now(0.1)):
-        compute()
-    assert time.monotonic() < begin + 18
