@@ -13,6 +13,8 @@ from fractions import Fraction
 
 import statehtn._relax as _relax
 
+TERMS = ("line", "rising", "falling")
+SHIFT = Fraction(1, 3)
 Outcomes = tuple[tuple[int, Fraction, int], ...]
 """Of a decision: successor, probability, cost."""
 
@@ -27,22 +29,40 @@ class Graph:
 
 @dataclass(frozen=True)
 class Agent:
-    """How costs are valued: by their mean, or by the mean of base^cost or base^-cost."""
+    """How costs are valued: by their mean, by the mean of base^cost or base^-cost, or by that of a term of a sum.
+
+    A term is SHIFT + base^cost - 1 (`rising`), SHIFT + 1 - base^-cost (`falling`), or SHIFT + cost (`line`): what is
+    carried over of a cost and what follows is neither a sum nor a product.
+    """
 
     kind: str
     base: Fraction = Fraction(2)
 
     @property
     def is_exponential(self) -> bool:
-        return self.kind in ("averse", "seeking")
+        return self.kind in ("averse", "seeking", *TERMS)
 
     def factor(self, cost: int) -> Fraction:
         """Return what a cost multiplies the exponential by."""
-        return self.base**cost if self.kind == "averse" else self.base**-cost
+        if self.kind == "line":
+            return Fraction(1)
+        return self.base**cost if self.kind in ("averse", "rising") else self.base**-cost
+
+    def grown(self, cost: int) -> Fraction:
+        """Return a term of a cost, without SHIFT."""
+        return Fraction(cost) if self.kind == "line" else abs(self.factor(cost) - 1)
 
     def carried(self, cost: int) -> Fraction:
         """Return what is carried over of a certain cost."""
+        if self.kind in TERMS:
+            return SHIFT + self.grown(cost)
         return self.factor(cost) if self.is_exponential else Fraction(cost)
+
+    def added(self, cost: int) -> Fraction:
+        """Return what a step of this cost adds: of `SHIFT + g(c + x) = added + factor (SHIFT + g(x))`."""
+        if self.kind in TERMS:
+            return self.carried(cost) - self.factor(cost) * SHIFT
+        return Fraction(0) if self.is_exponential or self.kind == "success" else Fraction(cost)
 
     def worth(self, carried: Fraction | None) -> float:
         """Return the worth that the core minimises; infinite for none."""
@@ -51,17 +71,13 @@ class Agent:
         if not self.is_exponential:
             return float(carried)
         logarithm = math.log(carried.numerator) - math.log(carried.denominator)
-        return logarithm if self.kind == "averse" else -logarithm
+        return -logarithm if self.kind == "seeking" else logarithm
 
     def is_better(self, one: Fraction | None, other: Fraction | None) -> bool:
         """Tell whether one is better than the other; None is the worst."""
         if one is None or other is None:
             return other is None and one is not None
         return one > other if self.kind == "seeking" else one < other
-
-    def cost_of(self, cost: int) -> int:
-        """Return the cost of a step; the probability of being done has none."""
-        return 0 if self.kind == "success" else cost
 
 
 Policy = Sequence[int | None]
@@ -143,8 +159,7 @@ def _solve(
         constant = Fraction(0)
         for to, probability, cost in chosen[node] or ():
             weight = probability * (agent.factor(cost) if agent.is_exponential else 1)
-            if not agent.is_exponential:
-                constant += probability * agent.cost_of(cost)
+            constant += probability * agent.added(cost)
             value = known[to]
             if to in row:
                 row[to] += weight
@@ -182,6 +197,7 @@ RECURSIONS = {
     "success": _relax.Recursion.Expected,
     "averse": _relax.Recursion.Averse,
     "seeking": _relax.Recursion.Seeking,
+    **dict.fromkeys(TERMS, _relax.Recursion.LogExpected),
 }
 
 
@@ -198,12 +214,14 @@ def core_nodes(
         decisions = []
         for outcomes in graph.decisions[node]:
             mean = float(sum((p * cost for _, p, cost in outcomes), Fraction(0)))
-            constant = 0.0 if agent.is_exponential or agent.kind == "success" else mean
+            added = sum((p * agent.added(cost) for _, p, cost in outcomes), Fraction(0))
+            constant = float(added) if agent.kind not in TERMS else math.log(added) if added else -math.inf
             weights = [
                 (to, math.log(p) + math.log(agent.factor(cost)) if agent.is_exponential else float(p))
                 for to, p, cost in outcomes
             ]
             decisions.append((constant, mean, weights))
-        worth = 0.0 if is_done else math.inf if stop is None else agent.worth(agent.carried(stop))
-        nodes.append((is_done, 0.0, lower[node], worth, decisions))
+        done = agent.worth(agent.carried(0))
+        worth = done if is_done else math.inf if stop is None else agent.worth(agent.carried(stop))
+        nodes.append((is_done, done, lower[node], worth, decisions))
     return nodes

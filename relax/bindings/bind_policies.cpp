@@ -77,7 +77,8 @@ void bind_policies(nb::module_& module) {
     nb::enum_<relax::Recursion>(module, "Recursion")
         .value("Expected", relax::Recursion::Expected)
         .value("Averse", relax::Recursion::Averse)
-        .value("Seeking", relax::Recursion::Seeking);
+        .value("Seeking", relax::Recursion::Seeking)
+        .value("LogExpected", relax::Recursion::LogExpected);
 
     nb::class_<relax::PolicySearchOptions>(module, "PolicySearchOptions")
         .def(nb::init<>())

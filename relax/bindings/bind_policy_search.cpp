@@ -18,6 +18,7 @@
 #include "id_caster.hpp"
 #include "node_contents.hpp"
 #include "python_limits.hpp"
+#include "relax/policies/cut_source.hpp"
 #include "relax/policies/network_source.hpp"
 #include "relax/policies/policy_trace.hpp"
 #include "relax/policies/spending_source.hpp"
@@ -88,6 +89,35 @@ public:
         };
     }
 
+    void add_term(double slope, double log_weight, const Amounts& actions, const Amounts& parts,
+                  const relax::PricedProblem& priced, double unit) {
+        terms_.push_back({{slope, log_weight, 1}, {actions, parts}, &priced, unit});
+    }
+
+    void take_terms(const relax::CostLaws& laws, double step, double failure, std::string_view heuristic) {
+        if (terms_.empty()) {
+            throw std::invalid_argument("there must be a term");
+        }
+        for (auto& [term, amounts, priced, unit] : terms_) {
+            term = relax::DisutilityTerm::of(term.slope, term.log_weight, step);
+        }
+        make_ = [this, &laws, costs = relax::CutSource::Costs{step, failure},
+                 info = admissible(heuristic)]() -> std::unique_ptr<relax::PlanningSource> {
+            auto source =
+                std::make_unique<relax::CutSource>(*progression_, probabilities_, laws, costs, terms_, info, limits_);
+            cut_ = source.get();
+            return source;
+        };
+    }
+
+    double certain_cost(double worth) const {
+        std::vector<relax::DisutilityTerm> terms;
+        for (const auto& priced : terms_) {
+            terms.push_back(priced.term);
+        }
+        return relax::certain_cost(terms, worth);
+    }
+
     relax::PolicySearchResult run(relax::AmountLeft left, Seconds seconds, Bytes bytes, Steps steps,
                                   const nb::object& progress) {
         if (!make_) {
@@ -111,6 +141,9 @@ public:
             if (search_) {
                 if (spending_ != nullptr) {
                     spending_->begin_with(left);
+                }
+                if (cut_ != nullptr) {
+                    cut_->set_cut(left);
                 }
                 result = search_->run();
             }
@@ -187,6 +220,8 @@ private:
     std::function<std::unique_ptr<relax::PlanningSource>()> make_;
     std::unique_ptr<relax::PlanningSource> source_;
     relax::SpendingSource* spending_ = nullptr;
+    std::vector<relax::CutSource::PricedTerm> terms_;
+    relax::CutSource* cut_ = nullptr;
     std::optional<relax::PolicySearch> search_;
     std::optional<relax::PolicyTrace> trace_;
     std::optional<relax::RelevantFacts> relevant_;
@@ -216,6 +251,11 @@ void bind_policy_search(nb::module_& module) {
              "unit"_a, "heuristic"_a)
         .def("take_laws", &PolicyRun::take_laws, "laws"_a, "means"_a, "units_per_step"_a, "of_left"_a, "gain"_a,
              "beyond"_a, "slope"_a, "failure"_a.none(), "heuristic"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+        .def("add_term", &PolicyRun::add_term, "slope"_a, "log_weight"_a, "actions"_a, "parts"_a, "priced"_a, "unit"_a,
+             nb::keep_alive<1, 6>())
+        .def("take_terms", &PolicyRun::take_terms, "laws"_a, "step"_a, "failure"_a, "heuristic"_a,
+             nb::keep_alive<1, 2>())
+        .def("certain_cost", &PolicyRun::certain_cost, "worth"_a)
         .def("run", &PolicyRun::run, "left"_a = 0, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(),
              "steps"_a = nb::none(), "progress"_a = nb::none())
         .def_prop_ro("ends", [](const PolicyRun& self) { return self.trace().ends; })

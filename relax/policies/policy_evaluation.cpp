@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "relax/policies/disutility_terms.hpp"
+
 namespace relax {
 
 namespace {
@@ -12,12 +14,6 @@ constexpr std::uint32_t kElsewhere = std::numeric_limits<std::uint32_t>::max();
 constexpr double kMargin = 1e-9;           // of a spectral radius that is not told from 1
 constexpr double kSeekingMargin = 0;       // it never is 1: a policy is proper before it is evaluated
 constexpr std::uint32_t kMostSweeps = 64;  // for potentials; beyond that they are a little less than the largest path
-
-// ln(e^one + e^other)
-double log_sum(double one, double other) {
-    const double larger = std::max(one, other);
-    return larger == -kNever ? larger : larger + std::log1p(std::exp(std::min(one, other) - larger));
-}
 
 // What the weights of a decision lack to 1 where they are probabilities but for those of outcomes whose worth is in the
 // constant; nothing, where the difference is rounding.
@@ -59,10 +55,9 @@ LinearOutcome PolicyEvaluation::evaluate_component(Envelope& envelope, Recursion
     for (std::uint32_t index = 0; index < component.size(); ++index) {
         index_[component[index]] = index;
     }
-    const bool is_exponential = kind == Recursion::Averse || kind == Recursion::Seeking;
-    const LinearOutcome outcome = is_exponential
-                                      ? solve_exponential(envelope, kind == Recursion::Averse ? 1 : -1, component)
-                                      : solve_expected(envelope, kind, component);
+    const bool is_expected = kind == Recursion::Expected || kind == Recursion::ExpectedCost;
+    const LinearOutcome outcome =
+        is_expected ? solve_expected(envelope, kind, component) : solve_exponential(envelope, kind, component);
     for (std::uint32_t index = 0; index < component.size(); ++index) {
         index_[component[index]] = kElsewhere;
         if (outcome != LinearOutcome::Solved) {
@@ -106,15 +101,16 @@ LinearOutcome PolicyEvaluation::solve_expected(Envelope& envelope, Recursion kin
     return outcome;
 }
 
-LinearOutcome PolicyEvaluation::solve_exponential(Envelope& envelope, double sign,
+LinearOutcome PolicyEvaluation::solve_exponential(Envelope& envelope, Recursion kind,
                                                   std::span<const std::uint32_t> component) {
     const DecisionGraph& graph = envelope.graph();
+    const double sign = kind == Recursion::Seeking ? -1 : 1;
     exits_.clear();
     for (const std::uint32_t place : component) {
         const auto row = envelope.next(place);
         const auto successors = graph.successors(envelope.choice(place));
         const auto weights = graph.weights(envelope.choice(place));
-        double exit = -kNever;
+        double exit = kind == Recursion::LogExpected ? graph.constant(envelope.choice(place)) : -kNever;
         for (std::size_t at = 0; at < row.size(); ++at) {
             if (row[at] < envelope.size() && index_[row[at]] != kElsewhere) {
                 continue;

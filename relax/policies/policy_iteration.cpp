@@ -14,8 +14,9 @@ constexpr std::uint32_t kMostRounds = 10000;
 
 void PolicyIteration::improve(Envelope& envelope, Recursion kind) {
     sure_region_.make_proper(envelope);
-    if (evaluation_.evaluate(envelope, kind) != LinearOutcome::Solved && kind == Recursion::Averse) {
-        start_finite(envelope);
+    const bool may_be_infinite = kind == Recursion::Averse || kind == Recursion::LogExpected;
+    if (evaluation_.evaluate(envelope, kind) != LinearOutcome::Solved && may_be_infinite) {
+        start_finite(envelope, kind);
     }
     iterate(envelope, kind);
 }
@@ -39,8 +40,9 @@ void PolicyIteration::break_ties(Envelope& envelope, Recursion kind, const Segme
     improve(envelope, Recursion::ExpectedCost);
 }
 
-// Give nodes a finite policy where there is one, and let the others stop.
-void PolicyIteration::start_finite(Envelope& envelope) {
+// Give nodes a finite policy where there is one, and let the others stop. Those that have one keep it: among them, of
+// sums of exponentials, are nodes where costs to come weigh less and less, and loops without an end look finite.
+void PolicyIteration::start_finite(Envelope& envelope, Recursion kind) {
     bool may_stop_everywhere = true;
     std::vector<bool> is_sure(envelope.size());
     for (std::uint32_t place = 0; place < envelope.size(); ++place) {
@@ -52,6 +54,10 @@ void PolicyIteration::start_finite(Envelope& envelope) {
         envelope.set_outside(Outside::Reached);
         envelope.set_stops(0);
         for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+            if (envelope.worth(place) != kNever) {
+                envelope.set_worth(place, -kNever);
+                continue;
+            }
             envelope.choose(place, kStop);
             envelope.set_worth(place, is_sure[place] ? 0 : kNever);
         }
@@ -65,12 +71,12 @@ void PolicyIteration::start_finite(Envelope& envelope) {
             }
         }
     }
-    evaluation_.evaluate(envelope, Recursion::Averse);
-    stop_where_infinite(envelope);
+    evaluation_.evaluate(envelope, kind);
+    stop_where_infinite(envelope, kind);
 }
 
 // Where it is allowed to stop, that is finite.
-void PolicyIteration::stop_where_infinite(Envelope& envelope) {
+void PolicyIteration::stop_where_infinite(Envelope& envelope, Recursion kind) {
     bool stops = false;
     for (std::uint32_t place = 0; place < envelope.size(); ++place) {
         if (envelope.worth(place) == kNever && envelope.stop(place) != kNever) {
@@ -79,7 +85,7 @@ void PolicyIteration::stop_where_infinite(Envelope& envelope) {
         }
     }
     if (stops) {
-        evaluation_.evaluate(envelope, Recursion::Averse);
+        evaluation_.evaluate(envelope, kind);
     }
 }
 

@@ -31,27 +31,36 @@ MethodId method_of(const GroundProblem& problem, TaskId chance, ActionId outcome
 PolicyTrace trace_policy(PlanningSource& source, const DecisionGraph& graph, const FoundPolicy& policy,
                          Limits& limits) {
     PolicyTrace trace;
-    std::vector<std::uint32_t> index(graph.size(), std::numeric_limits<std::uint32_t>::max());
-    for (std::uint32_t at = 0; at < policy.nodes.size(); ++at) {
-        index[policy.nodes[at]] = at;
+    constexpr std::uint32_t kUnknown = std::numeric_limits<std::uint32_t>::max();
+    std::vector<DecisionId> choices(graph.size(), kStop);
+    for (std::size_t at = 0; at < policy.nodes.size(); ++at) {
+        choices[policy.nodes[at]] = policy.choices[at];
     }
-    trace.nodes = policy.nodes;
-    for (std::uint32_t at = 0; at < policy.nodes.size(); ++at) {
+    std::vector<std::uint32_t> index(graph.size(), kUnknown);
+    const auto list = [&](PolicyNodeId node) {
+        if (index[node] == kUnknown) {
+            index[node] = static_cast<std::uint32_t>(trace.nodes.size());
+            trace.nodes.push_back(node);
+        }
+        return index[node];
+    };
+    list(policy.nodes.front());
+    for (std::size_t at = 0; at < trace.nodes.size(); ++at) {
         limits.stop_if_reached();
-        const PolicyNodeId node = policy.nodes[at];
-        trace.ends.push_back(end_of(source, graph, node, policy.choices[at]));
+        const PolicyNodeId node = trace.nodes[at];
+        trace.ends.push_back(end_of(source, graph, node, choices[node]));
         trace.first.push_back(static_cast<std::uint32_t>(trace.successors.size()));
         trace.steps.emplace_back();
         if (trace.ends.back() != PolicyEnd::GoesOn) {
             continue;
         }
-        const PlanningSource::Traced found = source.trace(node, policy.choices[at] - graph[node].first);
+        const PlanningSource::Traced found = source.trace(node, choices[node] - graph[node].first);
         trace.steps.back() = found.step;
         for (const TracedBranch& branch : found.branches) {
             trace.probabilities.push_back(branch.probability);
             trace.actions.push_back(branch.action);
             trace.due_parts.add_row(branch.due_parts);
-            trace.successors.push_back(index[branch.successor]);
+            trace.successors.push_back(list(branch.successor));
         }
     }
     trace.first.push_back(static_cast<std::uint32_t>(trace.successors.size()));

@@ -718,6 +718,8 @@ class Recursion(enum.Enum):
 
     Seeking = 2
 
+    LogExpected = 3
+
 class PolicySearchOptions:
     def __init__(self) -> None: ...
     @property
@@ -846,6 +848,17 @@ class PolicyRun:
         failure: float | None,
         heuristic: str,
     ) -> None: ...
+    def add_term(
+        self,
+        slope: float,
+        log_weight: float,
+        actions: Sequence[float],
+        parts: Sequence[float],
+        priced: PricedProblem,
+        unit: float,
+    ) -> None: ...
+    def take_terms(self, laws: CostLaws, step: float, failure: float, heuristic: str) -> None: ...
+    def certain_cost(self, worth: float) -> float: ...
     def run(
         self,
         left: int = 0,

@@ -49,6 +49,30 @@ MEMORY = {
     "piecewise": st.builds(
         "piecewise 0:0 2:{} 5:{}".format, st.sampled_from(("0", "-1")), st.sampled_from(("-4", "-9"))
     ),
+    "one-switch": st.builds(
+        "one-switch alpha={} tradeoff={} wealth={}".format,
+        st.sampled_from(("0.05", "0.1", "0.3", "0.7")),
+        st.sampled_from(("0.1", "1", "4")),
+        st.sampled_from(("0", "5", "20")),
+    ),
+    "exponentials": st.one_of(
+        st.builds(
+            "exponentials linear={} {}:{} {}:1".format,
+            st.sampled_from(("0", "1")),
+            st.sampled_from(("0.1", "0.3")),
+            st.sampled_from(("1", "0.1")),
+            st.sampled_from(("-0.2", "-0.5")),
+        ),
+        st.sampled_from(
+            (
+                "exponentials linear=1 -0.3:2",
+                "exponentials linear=0 -0.2:1 -1:3",
+                "exponentials linear=0 0.1:1 0.4:0.05",
+                "exponentials linear=2",
+                "exponentials linear=0 0.3:1",
+            )
+        ),
+    ),
     "evar": st.builds("evar {}".format, st.sampled_from(("0.5", "0.9"))),
 }
 FAILURE_COSTS: st.SearchStrategy[FailureCost] = st.sampled_from(

@@ -15,14 +15,18 @@ from statehtn.session import Session
 from statehtn.settings import Settings
 from tests.brute_force import GaveUp
 from tests.explicit_graph import explicit_graph
-from tests.lotteries import ALPHAS, LAWS, lottery_problems, texts
+from tests.lotteries import ALPHAS, FINITE, LAWS, lottery_problems, texts
 from tests.policy_values import best_answer
 from tests.shares import share_of_examples
 from tests.strategies import problems
 
 LIMITS = Limits(steps=200_000)
 PLAIN = st.one_of(st.just("neutral"), texts(("averse ", "seeking "), ALPHAS))
-POLICIES = st.one_of(LAWS["deadline"], LAWS["overrun"], LAWS["quantile"], LAWS["cvar"], LAWS["mean-cvar"])
+POLICIES = st.one_of(
+    *(LAWS[name] for name in ("deadline", "overrun", "quantile", "cvar", "mean-cvar")),
+    FINITE["one-switch"],
+    FINITE["exponentials"],
+)
 SHARE = share_of_examples(3)
 
 

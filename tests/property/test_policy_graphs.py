@@ -15,7 +15,12 @@ from tests.policies_in_fractions import RECURSIONS, Agent, Graph, best, core_nod
 AGENTS = [
     Agent("neutral"),
     Agent("success"),
-    *(Agent(kind, base) for kind in ("averse", "seeking") for base in (Fraction(9, 8), Fraction(5, 2))),
+    Agent("line"),
+    *(
+        Agent(kind, base)
+        for kind in ("averse", "seeking", "rising", "falling")
+        for base in (Fraction(9, 8), Fraction(5, 2))
+    ),
 ]
 LAWS = [(Fraction(1),), (Fraction(1, 2),) * 2, (Fraction(1, 5), Fraction(4, 5)), (Fraction(1, 3),) * 3]
 
@@ -43,7 +48,8 @@ def test_best_policy(agent: Agent, graph: Graph, stop: int | None, data: st.Data
     exact = best(graph, agent, stop)
     worths = [agent.worth(value) for value in exact]
     shares = data.draw(st.lists(st.sampled_from([0.0, 0.5, 1.0]), min_size=len(worths), max_size=len(worths)))
-    lower = [share * worth if share else 0.0 for share, worth in zip(shares, worths, strict=True)]
+    done = agent.worth(agent.carried(0))
+    lower = [done + share * (worth - done) if share else done for share, worth in zip(shares, worths, strict=True)]
     options = _relax.PolicySearchOptions()
     options.recursion = RECURSIONS[agent.kind]
     options.precision = 0.0

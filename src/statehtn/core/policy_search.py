@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from statehtn.core.grounding import Grounding
 from statehtn.core.label_run import PRECISION
+from statehtn.core.policy_cut import CutPolicies
 from statehtn.core.policy_hopeless import hopeless
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_prices import PricedPolicies, SuccessPolicies, most_success
@@ -16,8 +17,9 @@ from statehtn.core.policy_spending import DISUTILITIES, SpendingPolicies
 from statehtn.core.progress import SearchProgress
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.limits import SECONDS_TO_READ, Limits
+from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
-from statehtn.risk import Exponential, Neutral, Success
+from statehtn.risk import Exponential, Exponentials, Neutral, OneSwitch, Success
 from statehtn.risk.policy_objectives import PolicyObjective, check_failure_cost, check_has_policies
 
 HEURISTIC = "lmcut"
@@ -34,6 +36,7 @@ def search_policy(
     heuristic: str = HEURISTIC,
     limits: Limits = Limits(),
     progress: Callable[[SearchProgress], None] | None = None,
+    value_of: Callable[[FlatPolicy], float] | None = None,
 ) -> PolicyOutcome:
     """Search for the policy of least value.
 
@@ -48,6 +51,8 @@ def search_policy(
         heuristic: the name of an admissible heuristic in `HEURISTICS`.
         limits: when to stop; Ctrl-C stops, too.
         progress: called about every 50 ms on the calling thread.
+        value_of: what a policy is worth by the objective, worked out from its runs; one-switch agents and sums of
+            exponentials need it.
 
     Raises:
         UnsupportedError: the objective or the problem has no policies; the message says why.
@@ -59,7 +64,13 @@ def search_policy(
     if not grounding.handle.solvable:
         return hopeless(objective, failure_cost)
     problem = PolicyProblem(grounding, heuristic, limits)
-    outcome = _run_of(problem, objective, failure_cost, precision, limits, progress).outcome(limits)
+    how = failure_cost, precision, progress
+    if isinstance(objective, OneSwitch | Exponentials):
+        assert value_of is not None
+        run: PolicyRun = CutPolicies(problem, objective, *how, limits, value_of)
+    else:
+        run = _run_of(problem, objective, *how, limits)
+    outcome = run.outcome(limits)
     if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE or outcome.reason is not None:
         return outcome
     return _with_reason(problem, outcome, objective, limits)
@@ -75,7 +86,8 @@ def check_that_it_has_policies(
         UsageError: the failure cost is out of its range.
     """
     check_has_policies(objective)
-    if not isinstance(objective, Success | Neutral | Exponential) and type(objective) not in DISUTILITIES:
+    known = Success | Neutral | Exponential | OneSwitch | Exponentials
+    if not isinstance(objective, known) and type(objective) not in DISUTILITIES:
         raise UnsupportedError(f"policies by '{objective}' are not supported")
     if grounding.has_scenarios:
         raise UnsupportedError(
@@ -95,8 +107,8 @@ def _run_of(
     objective: PolicyObjective,
     failure_cost: float | None,
     precision: float,
-    limits: Limits,
     progress: Watch,
+    limits: Limits,
 ) -> PolicyRun:
     match objective:
         case Success():
@@ -112,7 +124,8 @@ def _with_reason(
 ) -> PolicyOutcome:
     """Return the outcome with the reason why no policy has a finite value."""
     success = most_success(problem, limits.with_grace(SECONDS_TO_READ))
-    if success is not None and success > 1 - 1e-9 and isinstance(objective, Exponential):
+    exponential = Exponential | OneSwitch | Exponentials
+    if success is not None and success > 1 - 1e-9 and isinstance(objective, exponential):
         reason = (
             f"what a policy that is done for certain costs has no finite certainty equivalent for '{objective}': loops"
             " are long with a probability that falls too slowly. A smaller alpha, or a failure cost, has a policy"

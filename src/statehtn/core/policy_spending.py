@@ -87,10 +87,19 @@ DISUTILITIES: Mapping[type[Any], Callable[[Any, Fraction], Disutility]] = Mappin
 """Objectives by which the best policy depends on what was spent."""
 
 
-def _grid(problem: PolicyProblem, failure_cost: float | None, limits: Limits) -> LawGrid:
-    """Return the laws of all actions on a grid on which the cost of a failure is, too."""
+def exact_grid(problem: PolicyProblem, objective: Objective, failure_cost: float | None, limits: Limits) -> LawGrid:
+    """Return the laws of all actions on a grid on which the cost of a failure is, too.
+
+    Raises:
+        UnsupportedError: costs are not whole multiples of one step.
+    """
     found = LawGrid.first(problem.grounding, limits)
-    if failure_cost is None or not math.isfinite(failure_cost) or not found.grid.is_exact:
+    if not found.grid.is_exact:
+        raise UnsupportedError(
+            f"a policy by '{objective}' depends on what was spent: all costs must be multiples of one step that is"
+            " not too small for them, and no continuous ones"
+        )
+    if failure_cost is None or not math.isfinite(failure_cost):
         return found
     step, failure = found.grid.step, as_decimal(failure_cost)
     unit = math.lcm(step.denominator, failure.denominator)
@@ -126,12 +135,7 @@ class SpendingPolicies(PolicyRun):
     ) -> None:
         super().__init__(problem, precision, watch)
         self.objective = objective
-        self.grid = _grid(problem, failure_cost, limits)
-        if not self.grid.grid.is_exact:
-            raise UnsupportedError(
-                f"a policy by '{objective}' depends on what was spent: all costs must be multiples of one step that is"
-                " not too small for them, and no continuous ones"
-            )
+        self.grid = exact_grid(problem, objective, failure_cost, limits)
         self.step = self.grid.grid.step
         self.disutility = DISUTILITIES[type(objective)](objective, self.step)
         self.may_fail_for_ever = failure_cost == math.inf

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 
@@ -10,15 +11,18 @@ from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_search import search_policy
 from statehtn.core.progress import SearchProgress
 from statehtn.effort import Meter
-from statehtn.errors import UsageError
+from statehtn.errors import InputError, UsageError
 from statehtn.found_plan import SECONDS_TO_VALIDATE
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.log import log
+from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
+from statehtn.policies.chain import Chain
 from statehtn.policies.checking import check_policy
 from statehtn.policies.policy import Policy
 from statehtn.policies.result import Looking, PolicyResult
 from statehtn.policies.settings import PolicySettings
+from statehtn.policies.total_cost import PolicyCost
 from statehtn.risk import EntropicValueAtRisk, Success
 from statehtn.session import Session
 from statehtn.settings import Settings
@@ -106,12 +110,21 @@ class PolicyPipeline:
             precision=settings.precision,
             limits=self.limits,
             progress=self.progress,
+            value_of=self._value_of,
         )
         if isinstance(settings.objective, EntropicValueAtRisk):
             from statehtn.policies.evar import EvarSearch  # few runs need it
 
             return EvarSearch(settings.objective, settings.failure_cost or 0.0, settings.precision, search).outcome()
         return search(settings.objective)
+
+    def _value_of(self, flat: FlatPolicy) -> float:
+        """Return what a policy is worth by the objective, from its runs alone; infinite where that is not finite."""
+        assert not isinstance(self.settings.objective, Success)
+        try:
+            return self.settings.objective.value(PolicyCost(Chain(flat), self.settings.failure_cost or 0.0))
+        except InputError:
+            return math.inf
 
     def check(self) -> None:
         """Check the policy against the lifted problem, as far as limits and Ctrl-C let it.

@@ -7,11 +7,9 @@ import math
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.risk.callable_utility import CallableUtility
 from statehtn.risk.deadline import Deadline
-from statehtn.risk.exponentials import Exponentials
 from statehtn.risk.mean_deviation import MeanDeviation
 from statehtn.risk.mean_variance import MeanVariance
 from statehtn.risk.objective import Objective
-from statehtn.risk.one_switch import OneSwitch
 from statehtn.risk.quantile import Quantile
 from statehtn.risk.success import Success
 
@@ -30,7 +28,7 @@ def check_has_policies(objective: PolicyObjective) -> None:
             "prefer a larger cost to a smaller one, since the best decision after one outcome then depends on what was "
             "decided after the others; averse, overrun or cvar agents shun risk, too, and have policies"
         )
-    if isinstance(objective, OneSwitch | Exponentials | CallableUtility):
+    if isinstance(objective, CallableUtility):
         raise UnsupportedError(
             f"policies by '{objective}' are not searched for yet: what was spent matters to such an agent whatever it "
             "is; averse, overrun, piecewise and cvar agents have policies"

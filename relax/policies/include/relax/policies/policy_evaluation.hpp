@@ -32,7 +32,7 @@ public:
 private:
     LinearOutcome evaluate_component(Envelope& envelope, Recursion kind, std::span<const std::uint32_t> component);
     LinearOutcome solve_expected(Envelope& envelope, Recursion kind, std::span<const std::uint32_t> component);
-    LinearOutcome solve_exponential(Envelope& envelope, double sign, std::span<const std::uint32_t> component);
+    LinearOutcome solve_exponential(Envelope& envelope, Recursion kind, std::span<const std::uint32_t> component);
     void find_potentials(const Envelope& envelope, std::span<const std::uint32_t> component);
 
     Limits& limits_;

@@ -29,8 +29,8 @@ namespace relax {
 //   there is no k, then m leads to itself alone and its worth did not fall. Seeking: the same, since
 //   e^-W <= Q e^-W with rows of Q that sum to at most 1. So pi was not proper before; but it was at the beginning.
 //
-// - The policy of an averse agent stays finite. On a strongly connected set, W >= ln (Q e^W + b) with b >= 0 says that
-// the
+// - The policy of an averse agent, or of one of a sum of exponentials, stays finite. On a strongly connected set, W >=
+// ln (Q e^W + b) with b >= 0 says that the
 //   spectral radius of Q is at most 1, and it is 1 only if b = 0 and e^W = Q e^W (Perron and Frobenius); the latter is
 //   refuted as before.
 //
@@ -64,8 +64,8 @@ public:
     bool is_undecided() const { return is_undecided_; }
 
 private:
-    void start_finite(Envelope& envelope);
-    void stop_where_infinite(Envelope& envelope);
+    void start_finite(Envelope& envelope, Recursion kind);
+    void stop_where_infinite(Envelope& envelope, Recursion kind);
     void iterate(Envelope& envelope, Recursion kind);
     bool sweep(Envelope& envelope, Recursion kind);
 

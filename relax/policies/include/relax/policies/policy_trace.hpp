@@ -29,7 +29,8 @@ struct PolicyTrace {
     std::vector<std::uint32_t> successors;  // nodes here
 };
 
-// Work out a policy that was found. Throws Stopped.
+// Work out a policy that was found, as far as runs come: its graph may have nodes that only its bounds need. Throws
+// Stopped.
 PolicyTrace trace_policy(PlanningSource& source, const DecisionGraph& graph, const FoundPolicy& policy, Limits& limits);
 
 // Write the plan of a run of the policy, as branches from the first node on, and its decomposition tree. The outcome of

@@ -16,13 +16,14 @@ namespace relax {
 // Averse:   ln sum of e^(weight + worth). The worth is alpha times a cost; the weight of an outcome of probability p is
 //     ln p + ln E e^(alpha c).
 // Seeking:  -ln sum of e^(weight - worth); the weight is ln p + ln E e^(-alpha c).
+// LogExpected: ln(e^constant + sum of e^(weight + worth)). The worth is the logarithm of an expected disutility.
 // ExpectedCost: as Expected, with the expected cost of the step as its constant: what tells apart decisions that are
 // equal.
 //
 // All of them are linear in what is carried over (the worth itself, e^worth, e^-worth). What may lead to a node that is
 // worth kNever is worth that, too, whatever the other outcomes are: the agent must be done with probability 1, and a
 // seeking agent's sum would not show it.
-enum class Recursion : std::uint8_t { Expected, Averse, Seeking, ExpectedCost };
+enum class Recursion : std::uint8_t { Expected, Averse, Seeking, LogExpected, ExpectedCost };
 
 namespace recursion {
 
@@ -41,12 +42,13 @@ double expected(const DecisionGraph& graph, double constant, DecisionId decision
     return sum;
 }
 
-// `sign`: 1 for averse agents, -1 for those that seek risk. A successor may be worth -infinity.
+// `sign`: 1 for averse agents, -1 for those that seek risk. The constant, and what a successor is worth, may be
+// -infinity.
 template <typename WorthOf>
-double exponential(const DecisionGraph& graph, double sign, DecisionId decision, WorthOf worth_of) {
+double exponential(const DecisionGraph& graph, double sign, double constant, DecisionId decision, WorthOf worth_of) {
     const auto successors = graph.successors(decision);
     const auto weights = graph.weights(decision);
-    double largest = -kNever;
+    double largest = constant;
     for (std::size_t at = 0; at < successors.size(); ++at) {
         const double worth = worth_of(successors[at]);
         if (worth == kNever) {
@@ -54,10 +56,10 @@ double exponential(const DecisionGraph& graph, double sign, DecisionId decision,
         }
         largest = std::max(largest, weights[at] + sign * worth);
     }
-    if (successors.size() == 1 || largest == -kNever) {
+    if ((successors.size() == 1 && constant == -kNever) || largest == -kNever) {
         return sign * largest;
     }
-    double sum = 0;
+    double sum = std::exp(constant - largest);
     for (std::size_t at = 0; at < successors.size(); ++at) {
         sum += std::exp(weights[at] + sign * worth_of(successors[at]) - largest);
     }
@@ -72,9 +74,11 @@ double worth_of_decision(const DecisionGraph& graph, Recursion kind, DecisionId 
         case Recursion::Expected:
             return recursion::expected(graph, graph.constant(decision), decision, worth_of);
         case Recursion::Averse:
-            return recursion::exponential(graph, 1, decision, worth_of);
+            return recursion::exponential(graph, 1, -kNever, decision, worth_of);
         case Recursion::Seeking:
-            return recursion::exponential(graph, -1, decision, worth_of);
+            return recursion::exponential(graph, -1, -kNever, decision, worth_of);
+        case Recursion::LogExpected:
+            return recursion::exponential(graph, 1, graph.constant(decision), decision, worth_of);
         default:
             return recursion::expected(graph, graph.cost(decision), decision, worth_of);
     }

@@ -1,0 +1,90 @@
+#ifndef RELAX_POLICIES_CUT_SOURCE_HPP
+#define RELAX_POLICIES_CUT_SOURCE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "relax/policies/disutility_terms.hpp"
+#include "relax/policies/network_source.hpp"
+#include "relax/valuations/cost_laws.hpp"
+
+namespace relax {
+
+// Agents whose disutility of the total cost is a sum of a line and exponentials, of positive weights (one-switch and
+// sums of exponentials): what they have spent matters to them, whatever it is. It is remembered up to a cut. A node is
+// a state and a network, and
+//
+// - what is left until the cut: worth the expected disutility of the total cost; or
+// - beyond the cut, one of the terms: worth that term of the cost to come alone, which does not depend on what was
+//   spent (disutility_terms.hpp). What leads beyond the cut leads to the nodes of all terms, weighed by what was spent.
+//
+// Worths are logarithms (Recursion::LogExpected).
+//
+// The best worths of this graph are lower worths. Beyond the cut each term is as small as some policy makes it, and no
+// policy makes their weighted sum smaller than the sum of these: the ideal point. Up to the cut, that is carried back
+// by a monotone recursion.
+//
+// The policy that comes with them follows, beyond the cut, the one of the first term. Its value is not worked out here:
+// it is that of its runs, an upper value. With the first term the one of the largest slope A the two meet as the cut
+// grows. They differ in what the other terms are worth beyond the cut; there are finitely many nodes, so that this is
+// at most a multiple of e^(A' s) for the next slope A' < A where s was spent. The best policy has a finite E e^(A C),
+// so that it spends s or more with a probability of at most a multiple of e^(-A s): together e^((A' - A) s), which goes
+// to 0. (Where no slope is positive, the first term is the line, and the others are bounded; where there is no line,
+// either, e^(A s) goes to 0 by itself.)
+class CutSource : public PlanningSource {
+public:
+    // A term of the disutility, with what every action is worth by it alone: certainty equivalents in the unit of
+    // costs, and the same as prices, in units, for bounds.
+    struct PricedTerm {
+        DisutilityTerm term;
+        StepAmounts amounts;
+        const PricedProblem* priced;
+        double unit;
+    };
+    struct Costs {
+        double step;              // of the laws, in the unit of costs
+        double failure = kNever;  // what giving up adds to what was spent, in the unit of costs; kNever: one may not
+    };
+
+    // Throws Stopped.
+    CutSource(PolicyProgression& progression, std::vector<double> probabilities, const CostLaws& laws,
+              const Costs& costs, const std::vector<PricedTerm>& terms, const HeuristicInfo& heuristic, Limits& limits);
+
+    // What may be spent before what was spent is forgotten, in steps. All runs of a search have the same cut.
+    void set_cut(AmountLeft cut) { cut_ = cut; }
+
+    PolicyNodeId add_root(DecisionGraph& graph) override;
+    void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& decisions) override;
+    double bound(PolicyNodeId node, double known) override;
+
+private:
+    // The nodes beyond the cut have as what is left the number of their term, from kSpent on.
+    static bool is_beyond(AmountLeft left) { return left < 0; }
+    static AmountLeft beyond(std::size_t term) { return kSpent + static_cast<AmountLeft>(term); }
+    static std::size_t term_of(AmountLeft left) { return static_cast<std::size_t>(left - kSpent); }
+
+    void list_branches(AmountLeft left, const PolicyDecision& decision, std::vector<TracedBranch>& branches) override;
+    void draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft);
+    void draft_term(DecisionGraph& graph, std::size_t term, const PolicyDecision& decision, DraftDecision& draft);
+    void lead_beyond(DecisionGraph& graph, double left, const PolicyOutcome& outcome, const Law& law, double p,
+                     DraftDecision& draft);
+    PolicyNodeId add(DecisionGraph& graph, StateId state, NetworkId network, AmountLeft left);
+    double spent(double left) const { return (cut_ - left) * costs_.step; }
+    template <typename CostOf>
+    double lower(AmountLeft left, CostOf cost_of) const;
+    double stop(AmountLeft left) const;
+    const Law& law_of(const PolicyOutcome& outcome);
+
+    LawsSoFar laws_;
+    Costs costs_;
+    std::vector<DisutilityTerm> terms_;
+    std::vector<StepAmounts> amounts_;  // by term
+    std::vector<double> units_;
+    std::vector<std::unique_ptr<PairBounds>> bounds_;
+    Limits& limits_;
+    AmountLeft cut_ = 0;
+};
+
+}  // namespace relax
+
+#endif
