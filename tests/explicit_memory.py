@@ -199,6 +199,28 @@ def cvar(graph: ExplicitGraph, failure_cost: FailureCost, level: Fraction) -> An
     return mean_cvar(graph, failure_cost, level, ONE)
 
 
+def most_cost(graph: ExplicitGraph) -> Fraction | None:
+    """The largest total cost of a run, by relaxation; None where a loop costs something."""
+    most = [ZERO] * len(graph.done)
+    for _ in range(len(graph.done) + 1):
+        before = list(most)
+        for node, decisions in enumerate(graph.decisions):
+            most[node] = max([b.cost + most[b.successor] for decision in decisions for b in decision], default=ZERO)
+        if most == before:
+            return most[0]
+    return None
+
+
+def bounded(graph: ExplicitGraph, failure_cost: Fraction | None, disutility: Payoff) -> Answer | None:
+    """The least expected disutility of the total cost; None where there is no largest total cost."""
+    most = most_cost(graph)
+    if most is None:
+        return None
+    most += failure_cost or 0
+    layers = Layers(graph, lambda left: disutility(most - left), ZERO, failure_cost=failure_cost, offset=most)
+    return answer(layers.value(most))
+
+
 BY_NAME: dict[str, Callable[..., Answer]] = {
     "deadline": deadline,
     "overrun": overrun,

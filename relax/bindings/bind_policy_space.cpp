@@ -51,6 +51,16 @@ public:
     std::size_t node_count() const { return space_ ? space_->node_count() : 0; }
     std::size_t expanded_count() const { return space_ ? space_->expanded_count() : 0; }
 
+    std::optional<double> most_cost(const std::vector<double>& actions, const std::vector<double>& parts) const {
+        if (!space_ || space_->expanded_count() < space_->node_count()) {
+            throw std::out_of_range("the space is not complete");
+        }
+        if (actions.size() != problem_.action_count() || parts.size() != problem_.cost_part_count()) {
+            throw std::invalid_argument("there must be one cost for each action, and for each part");
+        }
+        return space_->most_cost(actions, parts);
+    }
+
     std::vector<relax::FactId> facts(std::uint32_t node) const {
         check(node, node_count());
         return facts_in(progression_->states()[space_->state(node)]);
@@ -106,6 +116,7 @@ void bind_policy_space(nb::module_& module) {
         .def_prop_ro("stop", &Space::stop)
         .def_prop_ro("node_count", &Space::node_count)
         .def_prop_ro("expanded_count", &Space::expanded_count)
+        .def("most_cost", &Space::most_cost, "actions"_a, "parts"_a)
         .def("facts", &Space::facts, "node"_a)
         .def("tasks", &Space::tasks, "node"_a)
         .def("ordering", &Space::ordering, "node"_a)

@@ -1,5 +1,9 @@
 #include "relax/progression/policy_space.hpp"
 
+#include <algorithm>
+
+#include "relax/base/strong_components.hpp"
+
 namespace relax {
 
 namespace {
@@ -29,6 +33,53 @@ PolicySpace::PolicySpace(PolicyProgression& progression, std::size_t most_nodes,
         }
         return std::nullopt;
     });
+}
+
+std::optional<double> PolicySpace::most_cost(std::span<const double> actions, std::span<const double> parts) const {
+    const auto cost_of = [&](const Outcome& outcome) {
+        double cost = outcome.action ? actions[*outcome.action] : 0;
+        for (const CostPartId part : outcome.due_parts) {
+            cost += parts[part];
+        }
+        return cost;
+    };
+    std::vector<std::uint32_t> first{0};
+    std::vector<std::uint32_t> successors;
+    std::vector<double> costs;
+    for (const std::vector<Decision>& decisions : decisions_) {
+        for (const Decision& decision : decisions) {
+            for (const Outcome& outcome : decision.outcomes) {
+                successors.push_back(outcome.node);
+                costs.push_back(cost_of(outcome));
+            }
+        }
+        first.push_back(static_cast<std::uint32_t>(successors.size()));
+    }
+    std::vector<double> most(nodes_.size(), 0);  // once a node is visited
+    std::vector<std::uint32_t> component_of(nodes_.size(), 0);
+    std::uint32_t count = 0;
+    bool is_bounded = true;
+    StrongComponents().find(
+        static_cast<std::uint32_t>(nodes_.size()),
+        [&](std::uint32_t node) { return std::span(successors).subspan(first[node], first[node + 1] - first[node]); },
+        [&](std::span<const std::uint32_t> component) {
+            ++count;
+            for (const std::uint32_t node : component) {
+                component_of[node] = count;
+            }
+            double largest = 0;
+            for (const std::uint32_t node : component) {
+                for (std::uint32_t at = first[node]; at < first[node + 1]; ++at) {
+                    const bool is_inside = component_of[successors[at]] == count;
+                    is_bounded = is_bounded && !(is_inside && costs[at] > 0);
+                    largest = std::max(largest, costs[at] + (is_inside ? 0 : most[successors[at]]));
+                }
+            }
+            for (const std::uint32_t node : component) {
+                most[node] = largest;
+            }
+        });
+    return is_bounded ? std::optional(most.front()) : std::nullopt;
 }
 
 std::uint32_t PolicySpace::number_of(StateId state, NetworkId network) {

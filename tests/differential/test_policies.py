@@ -7,7 +7,7 @@ worked out again from its decisions, and its runs are checked against the lifted
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 import pytest
@@ -16,13 +16,17 @@ from hypothesis import strategies as st
 
 import statehtn
 from statehtn import PolicyResult, Problem, Status
+from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
 from statehtn.policies.run import find_policy
 from statehtn.policies.settings import PolicySettings
+from statehtn.risk import ObjectiveLike
 from statehtn.session import Session
 from tests.brute_force import GaveUp
-from tests.explicit_graph import explicit_graph
-from tests.explicit_memory import INFINITE, FailureCost
+from tests.explicit_graph import ExplicitGraph, explicit_graph
+from tests.explicit_memory import INFINITE, FailureCost, bounded
+from tests.explicit_policies import Answer
+from tests.lotteries import lottery_problems
 from tests.naive_outcomes import Way, ways
 from tests.naive_semantics import Semantics, State
 from tests.policy_values import best_answer, graph_of_policy
@@ -75,6 +79,14 @@ MEMORY = {
     ),
     "evar": st.builds("evar {}".format, st.sampled_from(("0.5", "0.9"))),
 }
+FUNCTIONS: list[Callable[[Fraction], Fraction]] = [
+    lambda cost: cost**2,
+    lambda cost: Fraction(math.floor(cost)),  # jumps
+    lambda cost: -3 / (1 + cost),  # seeks risk
+    lambda cost: min(cost, Fraction(4)) + max(cost - 9, Fraction(0)) ** 3,
+]
+"""Disutilities of a cost."""
+Judge = Callable[[ExplicitGraph], Answer]
 FAILURE_COSTS: st.SearchStrategy[FailureCost] = st.sampled_from(
     (None, None, Fraction(2), Fraction(10), Fraction("0.5"))
 )
@@ -84,11 +96,11 @@ def problems(orders: Sequence[str]) -> st.SearchStrategy[Problem]:
     return st.one_of(chance_problems(tuple(orders)), chance_problems(tuple(orders)), wide_problems(tuple(orders)))
 
 
-def search(problem: Problem, text: str, failure_cost: FailureCost = None) -> PolicyResult:
+def search(problem: Problem, wanted: ObjectiveLike, failure_cost: FailureCost = None) -> PolicyResult:
     """The planner's answer; give up where a limit came first."""
     price = None if failure_cost is None else float(failure_cost)
-    precision = BY_SWEEP if text.startswith("evar") else PRECISION
-    settings = PolicySettings.of(text, failure_cost=price, precision=precision)
+    precision = BY_SWEEP if str(wanted).startswith("evar") else PRECISION
+    settings = PolicySettings.of(wanted, failure_cost=price, precision=precision)
     result = find_policy(Session(problem), settings, LIMITS)
     if result.stopped is not None:
         assert result.stopped is Status.TIME_LIMIT
@@ -101,18 +113,15 @@ def check(problem: Problem, text: str, failure_cost: FailureCost = None) -> Poli
     graph = explicit_graph(problem)
     answer = best_answer(graph, text, failure_cost)
     result = search(problem, text, failure_cost)
-    must_be_best(problem, result, answer.value, answer.expected_cost, text, failure_cost)
+    close = BY_SWEEP if text.startswith("evar") else None
+    must_be_best(problem, result, answer, lambda own: best_answer(own, text, failure_cost), close)
     return result
 
 
 def must_be_best(
-    problem: Problem,
-    result: PolicyResult,
-    value: Fraction | None,
-    expected_cost: Fraction | None,
-    text: str,
-    failure_cost: FailureCost,
+    problem: Problem, result: PolicyResult, answer: Answer, judge: Judge, tolerance: float | None = None
 ) -> None:
+    value, expected_cost = answer.value, answer.expected_cost
     if value is None:
         assert result.status is Status.UNSOLVABLE
         assert result.policy is None
@@ -120,13 +129,12 @@ def must_be_best(
         return
     assert result.status is Status.OPTIMAL
     assert result.policy is not None
-    by_sweep = text.startswith("evar")
-    close = {"rel": BY_SWEEP, "abs": BY_SWEEP} if by_sweep else CLOSE
-    slack = (2e-7 if by_sweep else CLOSE["abs"]) * max(1.0, abs(float(value)))
+    close = {"rel": tolerance, "abs": tolerance} if tolerance else CLOSE
+    slack = (2e-7 if tolerance else CLOSE["abs"]) * max(1.0, abs(float(value)))
     assert result.value == pytest.approx(float(value), **close)
     assert result.lower_bound <= float(value) + slack
     assert result.upper_bound >= float(value) - slack
-    own = best_answer(graph_of_policy(result.policy.graph.flat), text, failure_cost)
+    own = judge(graph_of_policy(result.policy.graph.flat))
     assert own.value is not None
     assert float(own.value) == pytest.approx(float(value), **close)
     if expected_cost is not None:
@@ -184,3 +192,32 @@ def test_agents_that_look_at_what_they_have_spent(family: str, data: st.DataObje
     problem = data.draw(problems(("total", "none", "partial")))
     infinite = st.just(INFINITE) if family in ("deadline", "quantile") else st.nothing()
     check(problem, data.draw(MEMORY[family]), data.draw(st.one_of(FAILURE_COSTS, infinite)))
+
+
+@SHARE
+@given(data=st.data())
+def test_functions_of_the_total_cost(data: st.DataObject) -> None:
+    """Where costs are bounded; where the whole graph has a loop that costs something, they may be refused."""
+    problem = data.draw(st.one_of(problems(("total", "none", "partial")), lottery_problems()))
+    function = data.draw(st.sampled_from(FUNCTIONS))
+    failure_cost = data.draw(FAILURE_COSTS)
+    assert not isinstance(failure_cost, str)
+
+    def utility(cost: float) -> float:
+        return -float(function(Fraction(repr(cost))))
+
+    answer = bounded(explicit_graph(problem), failure_cost, function)
+    try:
+        result = search(problem, utility, failure_cost)
+    except UnsupportedError:
+        assert answer is None
+        return
+    if answer is None:  # the search knows that the loop leads nowhere
+        return
+
+    def judge(graph: ExplicitGraph) -> Answer:
+        own = bounded(graph, failure_cost, function)
+        assert own is not None
+        return own
+
+    must_be_best(problem, result, answer, judge)

@@ -46,6 +46,7 @@ def search(probabilities: str, text: str, failure_cost: float | None = None) -> 
         ("deadline 9", 10.0, 0.25),  # two tries are in time, giving up never is
         ("overrun 5", 2.0, 0.0),
         ("cvar 0.9", 6.0, 6.0),
+        ("overrun 5", 2.0003, 0.0),  # a grid of 20 000 steps for a try
     ],
 )
 def test_values(text: str, failure_cost: float | None, value: float) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 from statehtn.display.policy_tree import policy_html, policy_text
 from statehtn.model import CostDistribution, Step
 from statehtn.model.policy_graph import Branch, Decision, End, PolicyGraph, PolicyNode
-from tests.made_policies import certain, ferry_or_bridge, retry, tries
+from tests.made_policies import HELD, TRY, certain, ferry_or_bridge, retry, tries
 
 
 def test_a_loop_has_a_letter() -> None:
@@ -14,6 +16,22 @@ def test_a_loop_has_a_letter() -> None:
         "  if (held cup), 0.5:",
         "    (carry cup)  cost 3",
         "    done",
+        "  otherwise, 0.5: go on at A",
+    ]
+
+
+def test_what_leads_into_a_loop_of_its_own_kind_is_told_once() -> None:
+    """Twice the try is a node of its own, as where amounts are remembered, and then it is one for all times."""
+    again, held = Branch(0.5, certain(1), 1), Branch(0.5, certain(1), 3, frozenset({HELD}))
+    first, second = (
+        PolicyNode(frozenset(), (TRY,), (), Decision(0, TRY, (held, to)), left=left)
+        for to, left in ((again, 2.0), (Branch(0.5, certain(1), 2), 1.0))
+    )
+    third = PolicyNode(frozenset(), (TRY,), (), Decision(0, TRY, (held, Branch(0.5, certain(1), 2))), left=-math.inf)
+    done = PolicyNode(frozenset({HELD}), (), (), None, End.DONE, left=-math.inf)
+    assert policy_text(PolicyGraph.of([first, second, third, done])).splitlines() == [
+        "A: (try cup)  cost 1",
+        "  if (held cup), 0.5: done",
         "  otherwise, 0.5: go on at A",
     ]
 

@@ -13,11 +13,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import statehtn._relax as _relax
+from statehtn.core.law_grid import LawGrid
 from statehtn.core.policy_laws import SpendingLaws
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem, Prices
 from statehtn.core.policy_run import PolicyRun, Watch
-from statehtn.core.policy_spending import MOST_LEFT, exact_grid
+from statehtn.core.policy_spending import MOST_LEFT
 from statehtn.limits import Limits
 from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
@@ -48,11 +49,8 @@ class CutPolicies(PolicyRun):
         failure_cost: what giving up adds to what was spent; None where it is not allowed.
         precision: see `PolicyRun`.
         watch: likewise.
-        limits: they hold while laws are put on a grid.
+        grid: the laws of all actions, exact, with what giving up costs.
         value_of: what a policy is worth by the objective, worked out from its runs; may be infinite.
-
-    Raises:
-        UnsupportedError: costs are not whole multiples of one step.
     """
 
     recursion = _relax.Recursion.LogExpected
@@ -64,13 +62,13 @@ class CutPolicies(PolicyRun):
         failure_cost: float | None,
         precision: float,
         watch: Watch,
-        limits: Limits,
+        grid: LawGrid,
         value_of: Callable[[FlatPolicy], float],
     ) -> None:
         super().__init__(problem, precision, watch)
         self.objective = objective
         self.failure_cost = failure_cost
-        self.grid = exact_grid(problem, objective, failure_cost, limits)
+        self.grid = grid
         self.value_of = value_of
         self.tolerance = precision / 16
         """How far apart the bounds of the core may be: logarithms, relative to the larger, or to 1."""

@@ -7,19 +7,20 @@ from dataclasses import replace
 
 from statehtn.core.grounding import Grounding
 from statehtn.core.label_run import PRECISION
+from statehtn.core.policy_bounded import bounded_disutility
 from statehtn.core.policy_cut import CutPolicies
 from statehtn.core.policy_hopeless import hopeless
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_prices import PricedPolicies, SuccessPolicies, most_success
 from statehtn.core.policy_problem import PolicyProblem
 from statehtn.core.policy_run import PolicyRun, Watch
-from statehtn.core.policy_spending import DISUTILITIES, SpendingPolicies
+from statehtn.core.policy_spending import DISUTILITIES, SpendingPolicies, exact_grid
 from statehtn.core.progress import SearchProgress
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.limits import SECONDS_TO_READ, Limits
 from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
-from statehtn.risk import Exponential, Exponentials, Neutral, OneSwitch, Success
+from statehtn.risk import CallableUtility, Exponential, Exponentials, Neutral, OneSwitch, Success
 from statehtn.risk.policy_objectives import PolicyObjective, check_failure_cost, check_has_policies
 
 HEURISTIC = "lmcut"
@@ -64,13 +65,7 @@ def search_policy(
     if not grounding.handle.solvable:
         return hopeless(objective, failure_cost)
     problem = PolicyProblem(grounding, heuristic, limits)
-    how = failure_cost, precision, progress
-    if isinstance(objective, OneSwitch | Exponentials):
-        assert value_of is not None
-        run: PolicyRun = CutPolicies(problem, objective, *how, limits, value_of)
-    else:
-        run = _run_of(problem, objective, *how, limits)
-    outcome = run.outcome(limits)
+    outcome = _run_of(problem, objective, failure_cost, precision, progress, limits, value_of).outcome(limits)
     if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE or outcome.reason is not None:
         return outcome
     return _with_reason(problem, outcome, objective, limits)
@@ -86,7 +81,7 @@ def check_that_it_has_policies(
         UsageError: the failure cost is out of its range.
     """
     check_has_policies(objective)
-    known = Success | Neutral | Exponential | OneSwitch | Exponentials
+    known = Success | Neutral | Exponential | OneSwitch | Exponentials | CallableUtility
     if not isinstance(objective, known) and type(objective) not in DISUTILITIES:
         raise UnsupportedError(f"policies by '{objective}' are not supported")
     if grounding.has_scenarios:
@@ -109,14 +104,24 @@ def _run_of(
     precision: float,
     progress: Watch,
     limits: Limits,
+    value_of: Callable[[FlatPolicy], float] | None,
 ) -> PolicyRun:
     match objective:
         case Success():
             return SuccessPolicies(problem, precision, progress)
         case Neutral() | Exponential():
             return PricedPolicies(problem, objective, failure_cost, precision, progress)
+    grid = exact_grid(problem, objective, failure_cost, limits)
+    how = failure_cost, precision, progress, grid
+    match objective:
+        case OneSwitch() | Exponentials():
+            assert value_of is not None
+            return CutPolicies(problem, objective, *how, value_of)
+        case CallableUtility():
+            disutility = bounded_disutility(objective, grid, failure_cost, limits)
         case _:
-            return SpendingPolicies(problem, objective, failure_cost, precision, progress, limits)
+            disutility = DISUTILITIES[type(objective)](objective, grid.grid.step)
+    return SpendingPolicies(problem, objective, *how, disutility)
 
 
 def _with_reason(

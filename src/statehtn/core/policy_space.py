@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -44,23 +45,7 @@ def policy_space(grounding: Grounding, limits: Limits = Limits()) -> PolicySpace
     """
     if not grounding.handle.solvable:  # nothing is left of the initial network
         return PolicySpace([[]], [False])
-    seconds, memory_bytes, steps = limits.left()
-    space = _relax.PolicySpace(
-        grounding.handle,
-        free_actions(grounding),
-        *uncertain_costs(grounding),
-        most_nodes=MOST_NODES,
-        seconds=seconds,
-        memory_bytes=memory_bytes,
-        steps=steps,
-    )
-    if space.stop is not None:
-        raise LimitReached(STOPPED[space.stop])
-    if space.expanded_count < space.node_count:
-        raise UnsupportedError(
-            f"more than {MOST_NODES} states with their networks can be reached, perhaps infinitely many, too many to "
-            "be written; export the best policy instead (--policy)"
-        )
+    space = _explored(grounding, limits, "too many to be written; export the best policy instead (--policy)")
     laws = BranchLaws(grounding)
     choices: list[list[list[Edge]]] = []
     for node in range(space.node_count):
@@ -79,3 +64,39 @@ def policy_space(grounding: Grounding, limits: Limits = Limits()) -> PolicySpace
             ]
         )
     return PolicySpace(choices, [not space.tasks(node) for node in range(space.node_count)])
+
+
+def most_cost(grounding: Grounding, steps_of: Callable[[CostLaw], float], limits: Limits) -> float | None:
+    """Return the largest total cost of a run, whatever is decided and whatever comes; None where there is no largest.
+
+    Args:
+        grounding: the ground problem; its methods are whole.
+        steps_of: the largest cost of a law.
+        limits: they hold.
+
+    Raises:
+        LimitReached: a limit was reached.
+        UnsupportedError: there are too many nodes; there may be infinitely many.
+    """
+    space = _explored(grounding, limits, "too many to find out how much a run may cost at most")
+    return space.most_cost(list(map(steps_of, grounding.laws)), list(map(steps_of, grounding.part_laws)))
+
+
+def _explored(grounding: Grounding, limits: Limits, too_many: str) -> _relax.PolicySpace:
+    seconds, memory_bytes, steps = limits.left()
+    space = _relax.PolicySpace(
+        grounding.handle,
+        free_actions(grounding),
+        *uncertain_costs(grounding),
+        most_nodes=MOST_NODES,
+        seconds=seconds,
+        memory_bytes=memory_bytes,
+        steps=steps,
+    )
+    if space.stop is not None:
+        raise LimitReached(STOPPED[space.stop])
+    if space.expanded_count < space.node_count:
+        raise UnsupportedError(
+            f"more than {MOST_NODES} states with their networks can be reached, perhaps infinitely many, {too_many}"
+        )
+    return space

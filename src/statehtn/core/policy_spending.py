@@ -25,6 +25,8 @@ from statehtn.risk import ConditionalValueAtRisk, Deadline, MeanCvar, Objective,
 
 MOST_LEFT = 2**31 - 2
 """Steps of an amount."""
+MOST_STEPS = 2**22
+"""Of the cost of an action."""
 TOO_UNLIKELY = 1e-9
 """Probabilities closer than that are not told apart."""
 
@@ -94,11 +96,14 @@ def exact_grid(problem: PolicyProblem, objective: Objective, failure_cost: float
         UnsupportedError: costs are not whole multiples of one step.
     """
     found = LawGrid.first(problem.grounding, limits)
-    if not found.grid.is_exact:
+    exact = found.grid.exact_step
+    if exact is None or found.largest > exact * MOST_STEPS:
         raise UnsupportedError(
             f"a policy by '{objective}' depends on what was spent: all costs must be multiples of one step that is"
             " not too small for them, and no continuous ones"
         )
+    if not found.grid.is_exact:
+        found = LawGrid(problem.grounding, Grid(exact, exact, found.grid.tail), limits)
     if failure_cost is None or not math.isfinite(failure_cost):
         return found
     step, failure = found.grid.step, as_decimal(failure_cost)
@@ -114,14 +119,12 @@ class SpendingPolicies(PolicyRun):
 
     Args:
         problem: the ground problem.
-        objective: its class is in `DISUTILITIES`.
+        objective: of the total cost.
         failure_cost: what giving up adds to what was spent; None where it is not allowed.
         precision: see `PolicyRun`.
         watch: likewise.
-        limits: they hold while laws are put on a grid.
-
-    Raises:
-        UnsupportedError: costs are not whole multiples of one step.
+        grid: the laws of all actions, exact, with what giving up costs.
+        disutility: the objective's.
     """
 
     def __init__(
@@ -131,13 +134,14 @@ class SpendingPolicies(PolicyRun):
         failure_cost: float | None,
         precision: float,
         watch: Watch,
-        limits: Limits,
+        grid: LawGrid,
+        disutility: Disutility,
     ) -> None:
         super().__init__(problem, precision, watch)
         self.objective = objective
-        self.grid = exact_grid(problem, objective, failure_cost, limits)
-        self.step = self.grid.grid.step
-        self.disutility = DISUTILITIES[type(objective)](objective, self.step)
+        self.grid = grid
+        self.step = grid.grid.step
+        self.disutility = disutility
         self.may_fail_for_ever = failure_cost == math.inf
         only_done_runs_pay = failure_cost is None or self.may_fail_for_ever
         self.run = problem.run(self.options, self.grid.least, only_done_runs_pay=only_done_runs_pay, sees_costs=True)
@@ -162,8 +166,12 @@ class SpendingPolicies(PolicyRun):
             case ConditionalValueAtRisk() | MeanCvar():
                 return self._mean_cvar(self.objective, limits)
         assert self.disutility.first is not None
-        found = self.search(min(self.disutility.first, MOST_LEFT), limits)
-        return self.finish(found)
+        if self.disutility.first > MOST_LEFT:
+            raise UnsupportedError(
+                f"a policy by '{self.objective}' depends on what was spent, in steps of {float(self.step):g}: more than"
+                f" {MOST_LEFT} of them are to be remembered, which is too many"
+            )
+        return self.finish(self.search(self.disutility.first, limits))
 
     def search(self, left: int, limits: Limits) -> _relax.PolicyStatistics:
         """Search from an amount, in steps."""

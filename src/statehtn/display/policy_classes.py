@@ -47,10 +47,13 @@ def classes_of(graph: PolicyGraph, ways: Ways, by_cost: bool) -> dict[int, int]:
     for component in order:
         group = [nodes[place] for place in component]
         keys = _told_apart(graph, ways, group, found, by_cost)
-        if len(group) > 1 or any(way.target == group[0] for way in ways[group[0]]):
+        is_loop = len(group) > 1 or any(way.target == group[0] for way in ways[group[0]])
+        if is_loop:
             keys = _keys_of_loop(graph, ways, group, found, by_cost)
         for node, key in keys.items():
             found[node] = numbers.setdefault(key, len(numbers))
+        for node in group if is_loop else ():  # what leads into the loop may be as one of its nodes is
+            numbers.setdefault(_key(graph, ways, node, found, by_cost), found[node])
     return found
 
 

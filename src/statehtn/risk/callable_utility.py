@@ -67,16 +67,22 @@ class CallableUtility(TotalUtility):
             UsageError: it rises, or fails.
         """
         step = (most - least) / GRID
-        self._check_at([*(least + step * point for point in range(GRID)), most])
+        self.utilities([*(least + step * point for point in range(GRID)), most])
 
-    def _check_at(self, costs: Iterable[float]) -> None:
-        """Check at ascending costs that the function does not rise."""
-        for (cost, utility), (later, other) in pairwise((cost, self.utility(cost)) for cost in costs):
+    def utilities(self, costs: Iterable[float]) -> list[float]:
+        """Return the utilities of ascending costs.
+
+        Raises:
+            UsageError: the function rises, or fails.
+        """
+        found = [(cost, self.utility(cost)) for cost in costs]
+        for (cost, utility), (later, other) in pairwise(found):
             if other > utility + ROUNDING * max(abs(utility), abs(other)):
                 raise UsageError(
                     f"the utility '{self.name}' rises: {utility:g} for a cost of {cost:g}, {other:g} for {later:g}; "
                     f"costs are positive and utilities maximised, so it must fall or stay"
                 )
+        return [utility for _, utility in found]
 
     def value(self, law: CostLaw) -> float:
         """Return minus the expected utility of a law.
@@ -87,7 +93,7 @@ class CallableUtility(TotalUtility):
         """
         self.check(expect_law(law).least, _highest(law))
         if isinstance(law, CostDistribution):
-            self._check_at(cost for _, cost in law.outcomes)
+            self.utilities(cost for _, cost in law.outcomes)
         return 0.0 - law.expectation(self.utility)
 
     def certainty_equivalent(self, law: CostLaw) -> float | None:

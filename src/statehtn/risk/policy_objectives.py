@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from statehtn.errors import UnsupportedError, UsageError
-from statehtn.risk.callable_utility import CallableUtility
 from statehtn.risk.deadline import Deadline
 from statehtn.risk.mean_deviation import MeanDeviation
 from statehtn.risk.mean_variance import MeanVariance
@@ -27,11 +26,6 @@ def check_has_policies(objective: PolicyObjective) -> None:
             f"no policy can be found by '{objective}': there are no policies that are best by an objective that may "
             "prefer a larger cost to a smaller one, since the best decision after one outcome then depends on what was "
             "decided after the others; averse, overrun or cvar agents shun risk, too, and have policies"
-        )
-    if isinstance(objective, CallableUtility):
-        raise UnsupportedError(
-            f"policies by '{objective}' are not searched for yet: what was spent matters to such an agent whatever it "
-            "is; averse, overrun, piecewise and cvar agents have policies"
         )
 
 

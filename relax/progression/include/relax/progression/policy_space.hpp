@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,9 @@ public:
     NetworkId network(std::uint32_t node) const { return nodes_[node].second; }
     // Of a node that was expanded.
     const std::vector<Decision>& decisions(std::uint32_t node) const { return decisions_[node]; }
+    // Of a complete space: the largest total cost of a run, whatever is decided and whatever comes, from the largest
+    // costs of actions and of parts; none where a loop costs something, so that there is no largest one.
+    std::optional<double> most_cost(std::span<const double> actions, std::span<const double> parts) const;
 
 private:
     std::uint32_t number_of(StateId state, NetworkId network);
