@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
@@ -19,6 +20,7 @@ from statehtn.risk import (
     AttitudeName,
     Objective,
     ObjectiveLike,
+    SuccessUtility,
     Utility,
     ValueUnit,
     adds_up,
@@ -188,10 +190,17 @@ def differences_between(
 
 def _price_of(objective: Objective, laws: Iterable[CostLaw]) -> Callable[[Iterable[PricedStep]], float | None]:
     """Return what prices parts of plans with these laws by an objective: None for each where prices do not add up."""
-    if isinstance(objective, AdditiveObjective) and adds_up(objective, laws):
-        additive = objective
-        return lambda steps: plan_risk_cost((priced.law for priced in steps), additive)
-    return lambda _: None
+    if not (isinstance(objective, AdditiveObjective) and adds_up(objective, laws)):
+        return lambda _: None
+    additive = objective
+    counting_on = objective.outcome_price if isinstance(objective, SuccessUtility) else lambda _: 0.0
+
+    def price(part: Iterable[PricedStep]) -> float:
+        listed = list(part)
+        counted_on = math.fsum(counting_on(priced.probability) for priced in listed)
+        return plan_risk_cost((priced.law for priced in listed), additive) + counted_on
+
+    return price
 
 
 def compared_objectives(
@@ -237,8 +246,8 @@ def _names(steps: Iterable[PricedStep]) -> list[str]:
 
 
 def tokens(steps: Iterable[PricedStep | None]) -> list[object]:
-    """Return what makes steps of several agents the same: the action and the law of its cost."""
-    return [None if priced is None else (priced.step, priced.law) for priced in steps]
+    """Return what makes steps of several agents the same: the action, the law of its cost, what it counts on."""
+    return [None if priced is None else (priced.step, priced.law, priced.probability) for priced in steps]
 
 
 def _merged(

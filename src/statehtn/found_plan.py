@@ -29,8 +29,7 @@ from statehtn.risk import (
     certainty_equivalent,
     plan_risk_cost,
 )
-from statehtn.validation import Validation, validate
-from statehtn.validation.validation import validate_trajectory
+from statehtn.validation import validate
 
 SECONDS_TO_VALIDATE = 0.2
 """A plan that is found right before the time is over is given that long: enough for some thousands of steps."""
@@ -198,20 +197,12 @@ def validated_and_priced(
         MissingNumber: a cost of the plan needs a number that `:init` does not give.
     """
     try:
-        validation = _validation(problem, plan, limits)
+        validation = validate(problem, plan, limits)
     except ENDINGS as ending:
         return not_validated(plan, objective, keep, status_of(ending))
     if not validation.valid:
         raise InternalError(f"the search returned a wrong plan: {'; '.join(validation.reasons)}")
-    return priced(plan.with_costs(validation.costs), objective, keep)
-
-
-def _validation(problem: Problem, plan: Plan, limits: Limits) -> Validation:
-    """Validate a plan; one that counts on outcomes as the run in which they come."""
-    if plan.outcomes is None:
-        return validate(problem, plan, limits)
-    came = [(outcome.added, outcome.deleted) for outcome in plan.outcomes]
-    return validate_trajectory(problem, plan, came, plan.seen, limits)
+    return priced(validation.settled(plan), objective, keep)
 
 
 def not_validated(plan: Plan, objective: Objective, keep: Sequence[Keep], stopped: Status) -> FoundPlan:

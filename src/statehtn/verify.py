@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from statehtn.expected import items
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model import And, Atom, Decomposition, Effect, Equals, Method, Plan, Problem, Signature, Step, Subtask
 from statehtn.model.expect import expect_plan, expect_problem
-from statehtn.model.problem import Action, TaskNetwork
+from statehtn.model.problem import Action, Fact, TaskNetwork
 from statehtn.model.status import Status
+from statehtn.risk import SuccessUtility
+from statehtn.semantics.chances import StepOutcome
 from statehtn.validation import Validation, execute_steps
 from statehtn.validation import validate as validate_plan
+from statehtn.validation.trajectories import likeliest
 
 TURN, DO = "turn {}", "do {}"
 """What a list of actions adds to a problem: facts that say whose turn it is, and an action for each place in the list.
@@ -50,6 +54,10 @@ def validate(
     For a list of actions a decomposition is searched for; where there is one, it is in the result's `plan`, and checked
     as that of any plan.
 
+    Where actions have several outcomes, a plan counts on one of each. One that does not say on which, such as one from
+    a file, is valid if all that holds when the right outcomes come; those of the likeliest such run are in `outcomes`,
+    and how likely it is in `probability`.
+
     The time is linear in the length of a plan where all networks are ordered totally.
 
     Args:
@@ -66,11 +74,31 @@ def validate(
         LimitReached: a limit was reached before a plan was checked; while a decomposition is searched for, it is in
             the result's `stopped`.
     """
-    expect_problem(problem)
     if time_limit is not None or memory_limit is not None:
         limits = Limits.starting_now(time_limit, memory_limit)
+    return validate_run(problem, plan, limits)
+
+
+def validate_run(
+    problem: Problem,
+    plan: Plan | Iterable[str | Step],
+    limits: Limits,
+    objective: SuccessUtility | None = None,
+    seen: frozenset[Fact] | None = None,
+) -> Validation:
+    """Check a plan as `validate` does; where it does not say which outcomes it counts on, on those of the best run.
+
+    Args:
+        problem: as there.
+        plan: as there.
+        limits: of all that.
+        objective: by which a run is the best one; None for the likeliest.
+        seen: facts by which outcomes are told apart, such as those of the ground problem; None for all that are read.
+    """
+    expect_problem(problem)
+    price = likeliest if objective is None else partial(_price_of, objective)
     if isinstance(plan, Plan) or not isinstance(plan, list | tuple):
-        return validate_plan(problem, expect_plan(plan), limits)
+        return validate_plan(problem, expect_plan(plan), limits, price, seen)
     from statehtn.hddl.action_list import actions_of  # lists are rare, and the reader takes a moment to import
 
     steps = actions_of(items(plan, "the actions"), problem)
@@ -78,21 +106,36 @@ def validate(
     if not execution.valid:
         return execution
     try:
-        found = _decomposed(problem, steps, limits)
+        found = _decomposed(problem, steps, limits, objective)
     except ENDINGS as ending:
         found = status_of(ending)
     if isinstance(found, Plan):
-        return replace(validate_plan(problem, found, limits), plan=found)
+        return replace(validate_plan(problem, found, limits, price, seen), plan=found)
     if found in UNDECIDED:
         return replace(execution, reasons=(UNDECIDED[found],), stopped=found)
     return replace(execution, reasons=(NOT_FOUND,))
 
 
-def _decomposed(problem: Problem, steps: Sequence[Step], limits: Limits) -> Plan | Status:
-    """Search for a decomposition that has these steps in this order; return it, or how the search ended."""
-    from statehtn.pipeline import any_plan  # lists are rare, and the planner takes a moment to import
+def _price_of(objective: SuccessUtility, outcome: StepOutcome) -> float:
+    return objective.risk_cost(outcome.law) + objective.outcome_price(float(outcome.probability))
 
-    result = any_plan(_following(problem, steps), limits)
+
+def _decomposed(
+    problem: Problem, steps: Sequence[Step], limits: Limits, objective: SuccessUtility | None
+) -> Plan | Status:
+    """Search for a decomposition that has these steps in this order; return it, or how the search ended.
+
+    Where actions have several outcomes, it is one of the best run: what methods ask for may depend on what has come.
+    """
+    from statehtn.pipeline import any_plan, solve  # lists are rare, and the planner takes a moment to import
+    from statehtn.session import Session
+    from statehtn.settings import Settings
+
+    following = _following(problem, steps, has_costs=objective is not None)
+    if problem.domain.has_outcomes:
+        result = solve(Session(following), Settings.of(objective or SuccessUtility(lambda _: 1.0)), limits)
+    else:
+        result = any_plan(following, limits)
     if result.plan is None:
         return result.status
     return Plan(
@@ -102,7 +145,7 @@ def _decomposed(problem: Problem, steps: Sequence[Step], limits: Limits) -> Plan
     )
 
 
-def _following(problem: Problem, steps: Sequence[Step]) -> Problem:
+def _following(problem: Problem, steps: Sequence[Step], has_costs: bool) -> Problem:
     """Return a problem whose plans are those of the problem that consist of these steps, in this order.
 
     Every action becomes a compound task with a method for each place where it stands in the list; the method binds the
@@ -120,9 +163,8 @@ def _following(problem: Problem, steps: Sequence[Step]) -> Problem:
         name = DO.format(number)
         passing = (Effect(turns[number], positive=False), Effect(turns[number + 1]))
         precondition = And((turns[number], action.precondition))
-        actions[name] = replace(
-            action, name=name, precondition=precondition, effects=(*action.effects, *passing), costs=()
-        )
+        effects, costs = (*action.effects, *passing), action.costs if has_costs else ()
+        actions[name] = replace(action, name=name, precondition=precondition, effects=effects, costs=costs)
         bound = And(tuple(Equals(*pair) for pair in zip(variables, step.arguments, strict=True)))
         network = TaskNetwork((Subtask("it", name, variables),), (), bound)
         methods[name] = Method(name, action.parameters, step.action, variables, network)

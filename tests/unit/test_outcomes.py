@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -11,6 +12,7 @@ from statehtn import CostDistribution, Outcome, ProblemBuilder
 from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.hddl.reader import read_hddl_text
 from statehtn.model import Decomposition, Plan, Problem, Step
+from statehtn.model.plan_outcome import PlanOutcome
 from statehtn.semantics.outcomes import Transitions
 from statehtn.semantics.world import World
 from statehtn.validation import validate_trajectory
@@ -162,10 +164,24 @@ def test_what_is_not_seen_need_not_be_told() -> None:
     assert not validate_trajectory(problem, tried(1), [FAILED], frozenset({HELD})).valid
 
 
-def test_plans_do_not_say_what_came() -> None:
+def test_plans_that_do_not_say_what_came_count_on_the_likeliest() -> None:
     problem = read(RETRY)
-    with pytest.raises(UnsupportedError, match=r"step 1 \(grasp a\) has 2 outcomes here"):
-        statehtn.validate(problem, tried(1))
+    found = statehtn.validate(problem, tried(1))
+    assert found.valid
+    assert found.outcomes is not None
+    assert [(outcome.probability, set(outcome.added)) for outcome in found.outcomes] == [(Fraction(1, 2), {HELD})]
+    assert (found.probability, found.to_dict()["probability"]) == (0.5, 0.5)
+    assert statehtn.validate(problem, tried(2)).probability == 0.25
+    counting = replace(tried(1), outcomes=(PlanOutcome(Fraction(1, 2), frozenset({HELD})),))
+    assert statehtn.validate(problem, counting).valid
+    too_likely = replace(tried(1), outcomes=(PlanOutcome(Fraction(3, 4), frozenset({HELD})),))
+    assert "step 1 (grasp a): it is said to lead there with probability 0.75, and does with 0.5" in str(
+        statehtn.validate(problem, too_likely)
+    )
+
+
+def test_chance_alone_has_no_plan() -> None:
+    problem = read(RETRY)
     with pytest.raises(UnsupportedError, match="action 'grasp' changes facts by chance") as caught:
         statehtn.plan(problem)
     assert caught.value.place is not None

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
 
 import statehtn
 from statehtn.cli.program import main
+from statehtn.errors import UnsupportedError
 from statehtn.model import Problem
 from statehtn.model.status import Status
 from tests.pages import ROOT, blocks
@@ -28,6 +30,46 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     for name, text in (("d", DOMAIN), ("unreachable", UNREACHABLE), ("forbidden", FORBIDDEN), ("solvable", SOLVABLE)):
         Path(f"{name}.hddl").write_text(text, encoding="utf-8")
+
+
+SLIPPERY = """(define (domain slippery)
+  (:types place)
+  (:predicates (at ?p - place) (road ?a ?b - place))
+  (:task go :parameters (?p - place))
+  (:method m-there :parameters (?p - place) :task (go ?p) :precondition (at ?p) :ordered-subtasks ())
+  (:method m-drive :parameters (?p ?a ?b - place) :task (go ?p) :precondition (and (at ?a) (road ?a ?b))
+    :ordered-subtasks (and (drive ?a ?b) (go ?p)))
+  (:method m-walk :parameters (?p ?a ?b - place) :task (go ?p) :precondition (and (at ?a) (road ?a ?b))
+    :ordered-subtasks (and (walk ?a ?b) (go ?p)))
+  (:action drive :parameters (?a ?b - place) :precondition (and (at ?a) (road ?a ?b))
+    :effect (and (increase (total-cost) 1) (probabilistic 0.5 (and (not (at ?a)) (at ?b)) 0.5 ())))
+  (:action walk :parameters (?a ?b - place) :precondition (and (at ?a) (road ?a ?b))
+    :effect (and (increase (total-cost) 2) (probabilistic 0.9 (and (not (at ?a)) (at ?b)) 0.1 (not (at ?a))))))"""
+SLIPPERY_ROADS = """(define (problem p) (:domain slippery) (:objects a b c - place)
+  (:htn :ordered-subtasks (and (go c))) (:init (at a) (road a b) (road b c)))"""
+
+
+def test_plans_that_count_on_outcomes() -> None:
+    problem = read(SLIPPERY_ROADS, SLIPPERY)
+    objective = "success-utility alpha=0.1"
+    answer = statehtn.why(problem, ["(drive a b)", "(walk b c)"], objective=objective)
+    assert isinstance(answer, statehtn.WhyNot)
+    assert answer.given is not None
+    by_walking, by_driving = 0.2 - math.log(0.9), 0.1 - math.log(0.5)
+    assert answer.given.value == pytest.approx(by_driving + by_walking)
+    assert answer.more == pytest.approx(by_driving - by_walking)
+    (part,) = answer.differences
+    assert part.own_cost == pytest.approx(by_driving)
+    assert part.other_cost == pytest.approx(by_walking)
+    again = statehtn.why(problem, ["(drive a b)", "(drive a b)", "(walk b c)"], objective=objective)
+    assert isinstance(again, statehtn.WhyNot)
+    assert again.given is not None  # the first try fails
+    assert again.given.value == pytest.approx(2 * by_driving + by_walking)
+    never = statehtn.why(problem, ["(walk a b)", "(walk a b)"], objective=objective)
+    assert isinstance(never, statehtn.WhyNot)
+    assert "(at a) is false, and no outcomes of the steps before lead farther" in never.reasons[0]
+    with pytest.raises(UnsupportedError, match="a policy can"):
+        statehtn.why(problem, ["(drive a b)"])
 
 
 def test_roots_and_additions() -> None:

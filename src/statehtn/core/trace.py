@@ -169,7 +169,7 @@ class TraceReader:
             bindings, children = self._decomposition(result, step_of, limits)
         root = tuple(bindings[parameter.name] for parameter in self._grounding.problem.parameters)
         plan = Plan(tuple(steps), in_order(children), root, tuple(costs))
-        if not self._grounding.handle.has_outcomes:
+        if not self._grounding.problem.domain.has_outcomes:
             return plan
         outcomes = outcomes_of(self._grounding, [result.node(number).task for number in result.plan])
         return replace(plan, outcomes=outcomes, seen=self._grounding.seen_facts())

@@ -19,6 +19,7 @@ from statehtn.display.words import (
     UNREAD,
     Labelled,
     agent,
+    counted_on,
     effort_rows,
     ending,
     head,
@@ -99,8 +100,8 @@ def _rows(steps: Sequence[PricedStep], has_prices: bool) -> list[tuple[str, ...]
     for index, priced in enumerate(steps, 1):
         if id(priced) not in texts:
             price = (number(priced.risk_cost),) if has_prices else ()
-            chance = "" if priced.probability == 1 else f"  counts on {number(priced.probability)}"
-            texts[id(priced)] = (f"{priced.step}{chance}", str(priced.law), number(priced.expected_cost), *price)
+            action = f"{priced.step}{counted_on(priced.probability)}"
+            texts[id(priced)] = (action, str(priced.law), number(priced.expected_cost), *price)
         rows.append((str(index), *texts[id(priced)]))
     return rows
 

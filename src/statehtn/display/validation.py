@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from itertools import repeat
 
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
-from statehtn.display.words import FAILURE, SUCCESS, Labelled, number
+from statehtn.display.words import FAILURE, SUCCESS, Labelled, counted_on, number
 from statehtn.validation import Validation
 
 COSTS = (Column("cost"), Column("expected", is_number=True))
@@ -35,7 +36,9 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
     if validation.stopped is None:
         states.append(("fails", "", ""))
     states += [("not reached", "", "")] * (len(steps) - len(states))
-    shown = [(str(index), str(step), *state) for index, (step, state) in enumerate(zip(steps, states, strict=False), 1)]
+    chances = [*_chances(validation), *repeat("", len(steps))]
+    rows = enumerate(zip(steps, chances, states, strict=False), 1)
+    shown = [(str(index), f"{step}{chance}", *state) for index, (step, chance, state) in rows]
     table = Table((Column("", is_number=True), Column("action"), Column(""), *COSTS), shown)
     summary = Summary(_verdict(validation), SUCCESS if validation.valid else FAILURE)
     return rendered([table, summary] if shown else [summary])
@@ -49,7 +52,16 @@ def _verdict(validation: Validation) -> Labelled:
         rows = [("verdict", "valid: these actions have a decomposition"), ("found", tree[0])]
         rows += [("", line) for line in tree[1:]]
     rows += [("because", reason) for reason in validation.reasons]
-    return [*rows, ("expected cost", number(validation.expected_cost))] if validation.valid else rows
+    if not validation.valid:
+        return rows
+    if validation.probability < 1:
+        rows.append(("probability", f"{number(validation.probability)} that each step comes to what is counted on"))
+    return [*rows, ("expected cost", number(validation.expected_cost))]
+
+
+def _chances(validation: Validation) -> list[str]:
+    """Return for each step that can be executed how likely the outcome is that the plan counts on."""
+    return [counted_on(float(outcome.probability)) for outcome in validation.outcomes or ()]
 
 
 def _costs(validation: Validation) -> list[tuple[str, str]]:

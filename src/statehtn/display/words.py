@@ -36,6 +36,11 @@ def number(value: float | None) -> str:
     return "" if value is None else f"{value:.10g}"
 
 
+def counted_on(probability: float) -> str:
+    """Return what follows a step of a plan that counts on an outcome with this probability; nothing if it is 1."""
+    return "" if probability == 1 else f"  counts on {number(probability)}"
+
+
 def ending(result: Result | TopPlans) -> str:
     """Return how a run ended, in words."""
     budgets = " and ".join(f"{number(one.budget)} with probability {number(one.probability)}" for one in result.keep)

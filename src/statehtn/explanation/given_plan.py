@@ -7,16 +7,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from statehtn.attitudes import Difference, differences_between
+from statehtn.effort import Meter
 from statehtn.found_plan import FoundPlan, priced
 from statehtn.limits import ENDINGS, Limits, status_of
-from statehtn.model import Plan, Problem, Step
+from statehtn.model import Fact, Plan, Problem, Step
 from statehtn.model.status import Status
 from statehtn.pipeline import solve
 from statehtn.result import Result
-from statehtn.risk import Objective
+from statehtn.risk import Objective, SuccessUtility
 from statehtn.session import Session
 from statehtn.settings import Settings
-from statehtn.verify import validate
+from statehtn.verify import validate_run
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,14 +86,17 @@ def why_not(problem: Problem, plan: Plan | Sequence[str | Step], settings: Setti
     Raises:
         InputError: a cost of the plan is not defined, or an action is none.
     """
-    objective = settings.objective
+    objective, session = settings.objective, Session(problem)
+    by = objective if isinstance(objective, SuccessUtility) else None
+    seen: frozenset[Fact] | None = None
     try:
-        validation = validate(problem, plan, limits)
+        if problem.domain.has_outcomes:  # refused by other objectives
+            seen = session.ground(limits, Meter(), by is not None).seen_facts()
+        validation = validate_run(problem, plan, limits, by, seen)
     except ENDINGS as ending:
         return WhyNot(objective, (), stopped=status_of(ending))
     if not validation.valid:
         return WhyNot(objective, validation.reasons, stopped=validation.stopped)
     decomposed = validation.plan or plan
     assert isinstance(decomposed, Plan)
-    given = priced(decomposed.with_costs(validation.costs), objective)
-    return WhyNot(objective, (), given, solve(Session(problem), settings, limits))
+    return WhyNot(objective, (), priced(validation.settled(decomposed), objective), solve(session, settings, limits))

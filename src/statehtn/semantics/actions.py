@@ -109,16 +109,20 @@ class GroundAction:
         """Return the law of its cost in the last state; of an action without outcomes."""
         return self._law(self._due_parts(history))
 
-    def outcomes(self, history: History, seen: frozenset[Fact] | None = None) -> tuple[StepOutcome, ...]:
+    def outcomes(
+        self, history: History, seen: frozenset[Fact] | None = None, as_stated: bool = False
+    ) -> tuple[StepOutcome, ...]:
         """Return what may come of it in the last state: outcomes of which each leads to another state, with their laws.
 
         Args:
+            history: the states so far.
             seen: facts by which states are told apart; chance changes no others. None for all facts.
+            as_stated: tell outcomes apart by what they make true and false, even if it is so already.
         """
         added, deleted = self.effects(history)
         due = self._due_parts(history)
         if not self.has_outcomes:
-            changes = added - history.now, deleted & history.now
+            changes = (added, deleted) if as_stated else (added - history.now, deleted & history.now)
             return (StepOutcome(Fraction(1), *changes, self._law(due)),)
         state = history.at(history.end)
         hidden = [history.at(history.end, facts) for facts in self._lifted.hidden]
@@ -128,7 +132,8 @@ class GroundAction:
             for block in self._lifted.blocks
             for bindings in block.bindings(self._bindings, state)
         )
-        return merged(combined(certain, instances, self._lifted.world), history.now, self._law)
+        before = None if as_stated else history.now
+        return merged(combined(certain, instances, self._lifted.world), before, self._law)
 
     def _law(self, due: tuple[DueParts, ...]) -> CostLaw:
         if due not in self._costs:

@@ -24,8 +24,8 @@ class StepOutcome:
 
     Args:
         probability: exactly, above 0.
-        added: the facts that become true and were not.
-        deleted: the facts that become false and were true.
+        added: the facts that become true and were not; or all that it makes true, where outcomes are told apart so.
+        deleted: the facts that become false and were true; or all that it makes false.
         law: of the cost, given that this outcome comes.
     """
 
@@ -138,18 +138,21 @@ def combined(
 
 
 def merged(
-    found: dict[Chosen, Fraction], before: set[Fact], law: Callable[[tuple[DueParts, ...]], CostLaw]
+    found: dict[Chosen, Fraction], before: set[Fact] | None, law: Callable[[tuple[DueParts, ...]], CostLaw]
 ) -> tuple[StepOutcome, ...]:
     """Return outcomes of which each leads to another state; the law of one is the mixture over what leads there.
 
     Args:
         found: what may be chosen.
-        before: the facts that are true before the step.
+        before: the facts that are true before the step; None to tell outcomes apart by what they make true and false,
+            even if it is so already.
         law: of the cost, where these parts of it are due in each scenario.
     """
     ways: dict[tuple[frozenset[Fact], frozenset[Fact]], list[tuple[Fraction, CostLaw]]] = {}
     for chosen, probability in found.items():
-        changes = chosen.added - before, (chosen.deleted - chosen.added) & before
+        changes = chosen.added, chosen.deleted - chosen.added
+        if before is not None:
+            changes = changes[0] - before, changes[1] & before
         ways.setdefault(changes, []).append((probability, law(chosen.due)))
     return tuple(
         StepOutcome(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from statehtn.errors import UnsupportedError
 from statehtn.model.cost.law import CostLaw
@@ -20,19 +21,25 @@ from statehtn.semantics.outcomes import Changes, outcome_that_came
 from statehtn.semantics.world import World
 
 NO_EFFECTS: tuple[frozenset[Fact], frozenset[Fact]] = (frozenset(), frozenset())
+CERTAIN = Fraction(1)
 
 
 @dataclass(frozen=True, slots=True)
 class Execution:
-    """The states of a plan's run, the costs of its steps and what is wrong with it."""
+    """The states of a plan's run, the costs of its steps, how likely what came of each was, and what is wrong."""
 
     history: History
     costs: tuple[CostLaw, ...]
+    probabilities: tuple[Fraction, ...]
     reasons: tuple[str, ...]
 
 
 def execute(
-    plan: Plan, world: World, came: Sequence[Changes] | None = None, seen: frozenset[Fact] | None = None
+    plan: Plan,
+    world: World,
+    came: Sequence[Changes] | None = None,
+    seen: frozenset[Fact] | None = None,
+    as_stated: bool = False,
 ) -> Execution:
     """Run a plan from the initial state and test the goal at its end.
 
@@ -44,6 +51,7 @@ def execute(
         world: the problem, and limits.
         came: what came of each step, where some have several outcomes.
         seen: facts by which outcomes are told apart; None for all facts.
+        as_stated: `came` is all that outcomes make true and false, even if it is so already.
 
     Raises:
         UnsupportedError: a step has several outcomes, and what came of it is not given.
@@ -52,6 +60,7 @@ def execute(
     lifted: dict[str, LiftedAction] = {}
     known: dict[Step, GroundAction | str] = {}
     costs: list[CostLaw] = []
+    probabilities: list[Fraction] = []
     reasons: list[str] = []
     for number, step in enumerate(world.limited(plan.steps)):
         action = known.get(step)
@@ -60,14 +69,17 @@ def execute(
         wrong = action if isinstance(action, str) else action.wrong(history)
         changes = NO_EFFECTS if isinstance(action, str) else action.effects(history)
         if not wrong and isinstance(action, GroundAction) and action.has_outcomes:
-            outcome = _outcome(step, action, history, None if came is None else came[number], seen)
+            outcome = _outcome(step, action, history, None if came is None else came[number], seen, as_stated)
             if outcome is None:
                 wrong = "what came of it is none of its outcomes"
             else:
                 changes = outcome.added, outcome.deleted
-                costs += [] if reasons else [outcome.law]
+                if not reasons:
+                    costs.append(outcome.law)
+                    probabilities.append(outcome.probability)
         elif not wrong and isinstance(action, GroundAction) and not reasons:
             costs.append(action.cost(history))
+            probabilities.append(CERTAIN)
         if wrong:
             reasons.append(f"step {history.end + 1} {step}: {wrong}")
         history.advance(*changes)
@@ -75,16 +87,21 @@ def execute(
     goal = Condition(world.problem.goal, world).ground({})
     if not goal.holds(end):
         reasons.append(f"the goal does not hold in the end: {goal.why_false(end)}")
-    return Execution(history, tuple(costs), tuple(reasons))
+    return Execution(history, tuple(costs), tuple(probabilities), tuple(reasons))
 
 
 def _outcome(
-    step: Step, action: GroundAction, history: History, came: Changes | None, seen: frozenset[Fact] | None
+    step: Step,
+    action: GroundAction,
+    history: History,
+    came: Changes | None,
+    seen: frozenset[Fact] | None,
+    as_stated: bool,
 ) -> StepOutcome | None:
     """Return the outcome of a step that came; None if what came is none of them."""
-    outcomes = action.outcomes(history, seen)
+    outcomes = action.outcomes(history, seen, as_stated)
     if came is not None:
-        return outcome_that_came(outcomes, came, history.now, seen)
+        return outcome_that_came(outcomes, came, None if as_stated else history.now, seen)
     if len(outcomes) > 1:
         raise UnsupportedError(
             f"step {history.end + 1} {step} has {len(outcomes)} outcomes here, and a plan does not say which one came"

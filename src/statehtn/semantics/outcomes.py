@@ -37,8 +37,14 @@ class Transitions:
         action = self._action(step)
         return action if isinstance(action, str) else action.wrong(History(facts))
 
-    def outcomes(self, step: Step, facts: frozenset[Fact]) -> tuple[StepOutcome, ...] | None:
+    def outcomes(self, step: Step, facts: frozenset[Fact], as_stated: bool = False) -> tuple[StepOutcome, ...] | None:
         """Return what may come of a step in a state, each leading to another state; None where it cannot be executed.
+
+        Args:
+            step: the step.
+            facts: the state.
+            as_stated: tell outcomes apart by what they make true and false, even if it is so already: as plans do that
+                count on outcomes, since the probabilities of these do not depend on what is true.
 
         Raises:
             InputError: a cost or a probability is none.
@@ -46,11 +52,15 @@ class Transitions:
         action, history = self._action(step), History(facts)
         if isinstance(action, str) or action.wrong(history):
             return None
-        return action.outcomes(history, self._seen)
+        return action.outcomes(history, self._seen, as_stated)
 
     def is_goal(self, facts: frozenset[Fact]) -> bool:
         """Tell whether the goal formula holds in a state."""
         return self._goal.holds(History(facts).at(0))
+
+    def why_no_goal(self, facts: frozenset[Fact]) -> str | None:
+        """Say why the goal formula does not hold in a state; None if it does."""
+        return None if self.is_goal(facts) else self._goal.why_false(History(facts).at(0))
 
     def _action(self, step: Step) -> GroundAction | str:
         if step not in self._known:
@@ -59,20 +69,16 @@ class Transitions:
 
 
 def outcome_that_came(
-    outcomes: Sequence[StepOutcome], came: Changes, before: set[Fact], seen: frozenset[Fact] | None
+    outcomes: Sequence[StepOutcome], came: Changes, before: set[Fact] | None, seen: frozenset[Fact] | None
 ) -> StepOutcome | None:
     """Return the outcome of a step that shows these changes; None if there is none.
 
     Several that differ in facts that are not seen become one: the state of the likeliest, and the mixture of their
-    laws.
+    laws. Without the facts `before` the step, the changes are all that the outcome makes true and false.
     """
-    added, deleted = came
-    expected = (added - before) | (deleted & before)
-    expected = expected if seen is None else expected & seen
+    added, deleted = came if before is None else (came[0] - before, came[1] & before)
     fitting = [
-        outcome
-        for outcome in outcomes
-        if (shown := outcome.added | outcome.deleted) == expected or (seen is not None and shown & seen == expected)
+        outcome for outcome in outcomes if _same(outcome.added, added, seen) and _same(outcome.deleted, deleted, seen)
     ]
     if not fitting:
         return None
@@ -84,3 +90,7 @@ def outcome_that_came(
         likeliest.deleted,
         mixed(weights, [outcome.law for outcome in fitting]),
     )
+
+
+def _same(one: frozenset[Fact], other: frozenset[Fact], seen: frozenset[Fact] | None) -> bool:
+    return one == other if seen is None else one & seen == other & seen
