@@ -42,6 +42,25 @@ def test_the_chain_of_the_best_policy(tmp_path: Path) -> None:
     assert cost == pytest.approx(5, rel=1e-5)
 
 
+@pytest.mark.parametrize(
+    "options", [("--objective", "success"), ("--attitude", "averse", "--alpha", "0.3"), ("--precision", "0.1")]
+)
+def test_the_decision_process_has_no_objective(
+    options: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "gripper.prism"
+    assert main(["export", *GRIPPER, "--prism", str(file), *options]) == 2
+    assert f"error: {options[0]} says which policy is the best" in capsys.readouterr().err
+    assert not file.exists()
+
+
+def test_giving_up_is_a_decision_of_the_process(tmp_path: Path) -> None:
+    file = tmp_path / "gripper.prism"
+    assert main(["export", *GRIPPER, "--prism", str(file), "--failure-cost", "2"]) == 0
+    (cost,) = values(file, 'R{"cost"}min=? [F ("done" | "failed")]')
+    assert cost == pytest.approx(2, rel=1e-5)
+
+
 def test_no_policy_no_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "policy.prism"
     arguments = ["export", *GRIPPER, "--policy", "--prism", str(file), "--objective", "averse 0.7"]

@@ -13,12 +13,15 @@ from statehtn.cli.streams import emit, say
 from statehtn.counted import counted
 from statehtn.display.policy_result import readable_policy
 from statehtn.effort import Meter
-from statehtn.errors import one_line
+from statehtn.errors import UsageError, one_line
 from statehtn.limits import Limits
 from statehtn.policies.prism import MarkovModel, chain_of, prism_text
 from statehtn.policies.reachable import reachable_model
 from statehtn.policies.run import find_policy
 from statehtn.session import Session
+
+OF_THE_AGENT = ("objective", "attitude", "alpha", "adaptive", "precision")
+"""Options that matter to the best policy alone; giving up at a price is a decision of the process, too."""
 
 
 def run_export(options: argparse.Namespace) -> ExitCode:
@@ -29,6 +32,8 @@ def run_export(options: argparse.Namespace) -> ExitCode:
         LimitReached: a limit was reached.
         OutputError: the file cannot be written.
     """
+    if not options.policy:
+        _refuse_what_policies_have(options)
     settings = policy_settings_in(options)
     output = OutputFile(options.prism, (options.domain, options.problem, options.costs))
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
@@ -50,3 +55,17 @@ def run_export(options: argparse.Namespace) -> ExitCode:
     if not output.is_stdout:
         emit(f"{one_line(options.prism)}: {counted(len(model.done), 'state')}")
     return ExitCode.SUCCESS
+
+
+def _refuse_what_policies_have(options: argparse.Namespace) -> None:
+    """Refuse options that say which policy is wanted, where all decisions are written.
+
+    Raises:
+        UsageError: there is one.
+    """
+    given = [name for name in OF_THE_AGENT if getattr(options, name) not in (None, False)]
+    if given:
+        raise UsageError(
+            f"--{given[0]} says which policy is the best, and without --policy all decisions are written; "
+            f"add --policy, or leave --{given[0]} out"
+        )
