@@ -8,7 +8,7 @@ namespace relax {
 
 namespace {
 
-void add_method(RelaxedModelBuilder& builder, const GroundProblem& problem, MethodId method) {
+void add_composition(RelaxedModelBuilder& builder, const GroundProblem& problem, MethodId method) {
     RelaxedModel& model = builder.model;
     const auto row = problem.method_subtasks[method];
     std::vector<TaskId> subtasks(row.begin(), row.end());
@@ -45,7 +45,7 @@ RelaxedModel composition_model(const GroundProblem& problem, const Prices& price
     for (const TaskId task : problem.compounds()) {
         for (const MethodId method : problem.methods_of(task)) {
             limits.stop_if_reached();
-            add_method(builder, problem, method);
+            add_composition(builder, problem, method);
         }
         model.task_operators.finish_row();
     }

@@ -22,7 +22,7 @@ std::vector<Cost> slacks(const GroundProblem& problem, std::span<const Cost> tas
     return slacks;
 }
 
-void add_method(RelaxedModelBuilder& builder, const GroundProblem& problem, MethodId method) {
+void add_decomposition(RelaxedModelBuilder& builder, const GroundProblem& problem, MethodId method) {
     const RelaxedModel& model = builder.model;
     const TaskId task = problem.method_task[method];
     const auto subtasks = problem.method_subtasks[method];
@@ -72,7 +72,7 @@ RelaxedModel decomposition_model(const GroundProblem& problem, std::span<const C
     }
     for (const MethodId method : problem.methods()) {
         limits.stop_if_reached();
-        add_method(builder, problem, method);
+        add_decomposition(builder, problem, method);
     }
     return builder.finish(limits);
 }

@@ -12,7 +12,7 @@ namespace relax {
 namespace {
 
 constexpr std::uint64_t kMostWork = 30000000;  // of elimination, in entries: a part of a second
-constexpr std::uint32_t kMostSweeps = 1000000;
+constexpr std::uint32_t kMostSolutionSweeps = 1000000;
 constexpr double kPrecision = 1e-13;  // of iteration, relative to the largest value
 
 }  // namespace
@@ -231,7 +231,7 @@ LinearOutcome LinearComponent::iterate(Limits& limits) {
     solution_.assign(ends_.size(), 0);
     steps_.assign(ends_.size(), 0);
     constexpr std::uint32_t kSweepsUntilLook = 16;
-    for (std::uint32_t count = 1; count <= kMostSweeps; ++count) {
+    for (std::uint32_t count = 1; count <= kMostSolutionSweeps; ++count) {
         limits.stop_if_reached();
         sweep(solution_, false);
         sweep(steps_, true);

@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "relax/base/infinite.hpp"
 
 namespace relax {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kTermError = 0x1p-50;   // of a term, by the size of its exponents
 constexpr double kPointError = 0x1p-51;  // of each kappa
 constexpr double kConverged = 0x1p-50;
-constexpr double kSlack = 0x1p-49;        // of the certainty equivalent
-constexpr double kLargestExponent = 600;  // far from the range of floating point
+constexpr double kSlack = 0x1p-49;     // of the certainty equivalent
+constexpr double kSafeExponent = 600;  // far from the range of floating point
 constexpr int kMostSteps = 200;
 
 }  // namespace
@@ -104,7 +104,7 @@ Disutility::Value Disutility::excess(double cost, std::span<const double> point)
     const double* const kappa = point.data() + (has_linear() ? 1 : 0);
     double shift = 0;  // where a term at this cost is out of range, all are made smaller
     for (std::size_t j = 0; j < terms_.size(); ++j) {
-        shift = std::max(shift, logs_[j] + terms_[j].slope * (cost - kappa[j]) - kLargestExponent);
+        shift = std::max(shift, logs_[j] + terms_[j].slope * (cost - kappa[j]) - kSafeExponent);
     }
     const double factor = shift > 0 ? std::exp(-shift) : 1;
     double sum = point_error_ * factor;

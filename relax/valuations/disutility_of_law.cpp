@@ -8,7 +8,7 @@ namespace relax {
 
 namespace {
 
-constexpr double kRounding = 4 * kLawRounding;
+constexpr double kMeanRounding = 4 * kLawRounding;
 
 // ln E[e^(a X)] / a of a law in steps. Where a times the range is small, the logarithm is of a number near 1, of which
 // only the difference from 1 is worked out; elsewhere an error of it is one of the exponential mean divided by a, which
@@ -30,7 +30,7 @@ void DisutilityOfLaw::start() const { point_.assign(disutility_.size(), 0.0); }
 
 void DisutilityOfLaw::add(const FlooredLaw& law, bool rounds_down) const {
     const auto in_units = [&](double steps) {
-        const double error = rounds_down ? kRounding * (law.most() - law.least() + steps) : 0.0;
+        const double error = rounds_down ? kMeanRounding * (law.most() - law.least() + steps) : 0.0;
         return step_ * std::max(steps - error, law.least());
     };
     std::size_t at = 0;
@@ -54,14 +54,14 @@ double DisutilityOfLaw::bound(const Law& law, double more) const {
     for (double& number : point_) {
         number += step_ * more;
     }
-    return disutility_.certainty_equivalent(point_) * (1 - kRounding);
+    return disutility_.certainty_equivalent(point_) * (1 - kMeanRounding);
 }
 
 double DisutilityOfLaw::bound_of_sum(const Law& law, FlooredLaw& other) const {
     start();
     add(FlooredLaw(law, law.least()), true);
     add(other, true);
-    return disutility_.certainty_equivalent(point_) * (1 - kRounding);
+    return disutility_.certainty_equivalent(point_) * (1 - kMeanRounding);
 }
 
 }  // namespace relax

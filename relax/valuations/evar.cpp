@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostRounds = 200;
 constexpr double kAccuracy = 0x1p-40;  // of a divergence, relative
-constexpr double kRounding = 4 * kLawRounding;
+constexpr double kEvarRounding = 4 * kLawRounding;
 
 // A law seen through the weights e^(a (X - most)).
 struct Tilted {
@@ -99,7 +99,7 @@ Evar evar_of(std::initializer_list<const FlooredLaw*> laws, double c) {
 
 double rounded_down(const Evar& found, double more) {
     const double steps = found.below + more;
-    return steps - kRounding * (steps + found.scale);
+    return steps - kEvarRounding * (steps + found.scale);
 }
 
 }  // namespace

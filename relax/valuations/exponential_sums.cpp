@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "relax/base/infinite.hpp"
 #include "relax/valuations/cover.hpp"
 
 namespace relax {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kError = 0x1p-48;       // of a logarithm, by the size of what it is made of
-constexpr double kLargestExponent = 36;  // e^-36 is lost beside 1
+constexpr double kLogError = 0x1p-48;  // of a logarithm, by the size of what it is made of
+constexpr double kLostBesideOne = 36;  // e^-36 is lost beside 1
 
 double log_growth(double exponent) {  // ln(e^x - 1) for a positive x
-    return exponent > kLargestExponent ? exponent : std::log(std::expm1(exponent));
+    return exponent > kLostBesideOne ? exponent : std::log(std::expm1(exponent));
 }
 
 }  // namespace
@@ -110,10 +109,10 @@ bool ExponentialSums::is_below_lines(std::span<const ValueId> ways, ValueId othe
         const double log_mean = disutility_.log_linear() + std::log(std::abs(cost(0, mean)));
         if (mean > 0) {
             const double log_risk = std::log(-std::expm1(exponent));
-            cover.add_from(log_mean - log - log_risk + kError * (size + std::abs(log_mean) + std::abs(log_risk)));
+            cover.add_from(log_mean - log - log_risk + kLogError * (size + std::abs(log_mean) + std::abs(log_risk)));
         } else {
             const double log_risk = log_growth(exponent);
-            cover.add_up_to(log_mean - log - log_risk - kError * (size + std::abs(log_mean) + std::abs(log_risk)));
+            cover.add_up_to(log_mean - log - log_risk - kLogError * (size + std::abs(log_mean) + std::abs(log_risk)));
         }
     }
     const double low = slope * cost(1, to_come.least[1]);
@@ -133,7 +132,7 @@ bool ExponentialSums::is_in_box(ValueId one, ValueId other, const CostToCome& to
         largest = std::max(largest, terms[j].log_weight + terms[j].slope * point_[first + j]);
     }
     double sum = 0;
-    const auto add = [&](double term, double size) { sum += term + kError * (2 + size) * std::abs(term); };
+    const auto add = [&](double term, double size) { sum += term + kLogError * (2 + size) * std::abs(term); };
     if (first == 1) {
         add(std::exp(disutility_.log_linear() - largest) * cost(0, left[0] - right[0]), std::abs(largest));
     }
@@ -166,10 +165,10 @@ double ExponentialSums::most_log(std::span<const Cost> sums, std::span<const Cos
     const std::size_t first = disutility_.has_linear() ? 1 : 0;
     const double reference = terms[term].log_weight + terms[term].slope * cutoff_;
     double sum = 1;  // all of it divided by the term at the cutoff
-    double error = kError * (1 + std::abs(terms[term].log_weight) + std::abs(reference));
+    double error = kLogError * (1 + std::abs(terms[term].log_weight) + std::abs(reference));
     const auto add = [&](double part, double size) {
         sum += part;
-        error += kError * (2 + size + std::abs(reference)) * std::abs(part);
+        error += kLogError * (2 + size + std::abs(reference)) * std::abs(part);
     };
     if (first == 1) {
         const double mass = std::exp(disutility_.log_linear() - reference);

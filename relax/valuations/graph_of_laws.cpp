@@ -13,8 +13,8 @@ namespace relax {
 
 namespace {
 
-constexpr std::uint8_t kMostRounds = 250;
-constexpr double kLift = 0x1p-32;
+constexpr std::uint8_t kMostRoundsOfTask = 250;
+constexpr double kRoundLift = 0x1p-32;
 
 }  // namespace
 
@@ -47,10 +47,10 @@ GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::spa
         const TaskId task = queue.top();
         queue.pop();
         is_queued[task] = false;
-        if (rounds_[task] > kMostRounds) {
+        if (rounds_[task] > kMostRoundsOfTask) {
             continue;
         }
-        if (++rounds_[task] > kMostRounds) {
+        if (++rounds_[task] > kMostRoundsOfTask) {
             at_.assign(1, static_cast<double>(least[task]));
             probability_.assign(1, 1.0);
             laws_[task] = table_.add(at_, probability_);
@@ -67,7 +67,7 @@ GraphOfLaws::GraphOfLaws(const GroundProblem& problem, LawTable& table, std::spa
     }
     for (const TaskId task : problem.compounds()) {
         if (is_known_[task]) {
-            laws_[task] = lifted(table_, laws_[task], kLift);
+            laws_[task] = lifted(table_, laws_[task], kRoundLift);
         }
     }
 }

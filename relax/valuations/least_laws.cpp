@@ -10,7 +10,7 @@ namespace relax {
 namespace {
 
 // For what rounding and `highest_of` may have lost, over all cases.
-constexpr double kLift = 0x1p-36;
+constexpr double kCaseLift = 0x1p-36;
 
 LawId least_of_group(const GroundProblem& problem, ActionId action, std::span<const CostPartId> group,
                      std::span<const LawId> parts, LawTable& table, Limits& limits) {
@@ -39,7 +39,7 @@ std::vector<LawId> least_laws(const GroundProblem& problem, std::vector<LawId> l
             }
         }
         if (laws[action] != always) {
-            laws[action] = lifted(table, laws[action], kLift);
+            laws[action] = lifted(table, laws[action], kCaseLift);
         }
     }
     return laws;

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
+#include "relax/base/infinite.hpp"
 #include "relax/valuations/cover.hpp"
 
 namespace relax {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kDown = 1 - 0x1p-48;
 constexpr double kError = 0x1p-48;
 

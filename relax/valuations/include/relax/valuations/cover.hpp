@@ -2,7 +2,8 @@
 #define RELAX_VALUATIONS_COVER_HPP
 
 #include <algorithm>
-#include <limits>
+
+#include "relax/base/infinite.hpp"
 
 namespace relax {
 
@@ -11,12 +12,12 @@ class Cover {
 public:
     void add_from(double number) { from_ = std::min(from_, number); }
     void add_up_to(double number) { up_to_ = std::max(up_to_, number); }
-    void add_all() { from_ = -std::numeric_limits<double>::infinity(); }
+    void add_all() { from_ = -kInfinite; }
     bool covers(double low, double high) const { return from_ <= std::max(low, up_to_) || up_to_ >= high; }
 
 private:
-    double from_ = std::numeric_limits<double>::infinity();
-    double up_to_ = -std::numeric_limits<double>::infinity();
+    double from_ = kInfinite;
+    double up_to_ = -kInfinite;
 };
 
 }  // namespace relax
