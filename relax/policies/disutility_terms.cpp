@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "relax/base/infinite.hpp"
 
 namespace relax {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kLargeExponent = 30;  // 1 is a rounding error of its exponential, but for a factor of some hundreds
 
 // ln of `(e^(a x) - 1 + shift) / a`, for a > 0 and a large a x.

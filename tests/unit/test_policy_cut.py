@@ -64,6 +64,16 @@ def test_an_infinite_exponential_is_infinite_whatever_it_weighs(objective: str) 
     assert policy(objective, 3.0).value == pytest.approx(given_up.value, rel=1e-9)
 
 
+@pytest.mark.parametrize("objective", ["one-switch alpha={} tradeoff=1 wealth=0", "averse {}"])
+def test_loops_that_are_too_close_to_call(objective: str) -> None:
+    """At ln 2 the mean of the exponential becomes infinite."""
+    assert policy(objective.format(0.693147)).status is Status.OPTIMAL
+    result = policy(objective.format(0.6931471805))
+    assert (result.status, result.policy) == (Status.GAVE_UP, None)
+    assert "too close to call" in result.reason
+    assert policy(objective.format(0.69315)).status is Status.UNSOLVABLE
+
+
 def test_the_switch() -> None:
     """A rich agent tries, a poor one buys; one in between tries until it has become poor."""
     poor, between, rich = (policy(f"one-switch alpha=0.5 tradeoff=1 wealth={wealth}", 2.5) for wealth in (0, 4, 40))
@@ -80,6 +90,18 @@ def test_large_alphas(alpha: float) -> None:
     assert result.status is Status.OPTIMAL
     assert result.value == pytest.approx(7, rel=1e-9)
     assert policy(f"exponentials linear=1 {alpha}:1 -{alpha}:1", 500).status is Status.OPTIMAL
+
+
+def test_nothing_is_remembered_where_one_policy_is_best_for_all_terms() -> None:
+    result = policy("one-switch alpha=0.1 tradeoff=1 wealth=5")
+    assert {node.left for node in result.policy.graph.nodes} == {0.0, -math.inf}
+
+
+@pytest.mark.parametrize("slope", [1e-13, -1e-13, 1e-7])
+def test_slopes_of_nearly_nothing(slope: float) -> None:
+    """ln E[e^(a C)] / a is the mean and half of a times the variance, which is 2 here as the mean is."""
+    law = policy("neutral").policy.cost_distribution()
+    assert law.exponential_mean(slope) == pytest.approx(2 + slope, rel=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -75,13 +75,6 @@ class CutPolicies(PolicyRun):
         self.run: _relax.PolicyRun
 
     @cached_property
-    def first_cut(self) -> int:
-        """Steps that are remembered at first: as much as an action may cost; none where nothing is to be."""
-        if len(self.terms) == 1:
-            return 0
-        return min(math.ceil(self.grid.largest / float(self.grid.grid.step)), MOST_LEFT)
-
-    @cached_property
     def terms(self) -> list[_Term]:
         """The terms, that of the largest slope first; weights at no cost sum to 1."""
         weights = {term.slope: term.log_weight + math.log(abs(term.slope)) for term in self.objective.terms}
@@ -94,8 +87,11 @@ class CutPolicies(PolicyRun):
         ]
 
     def outcome(self, limits: Limits) -> PolicyOutcome:
-        """Search with one cut after the other, and return what was found."""
-        cut, bound, value = self.first_cut, -math.inf, math.inf
+        """Search with one cut after the other, and return what was found.
+
+        At first nothing is remembered: one policy may be best for all terms. Then it is as much as that one is worth.
+        """
+        cut, bound, value = 0, -math.inf, math.inf
         best: PolicyOutcome | None = None
         while True:
             found = self._up_to(cut, limits)
@@ -116,7 +112,7 @@ class CutPolicies(PolicyRun):
             elif cut == MOST_LEFT:
                 break
             else:
-                cut = min(2 * cut + 1, MOST_LEFT)
+                cut = min(2 * cut + 1 if cut else self._steps(value), MOST_LEFT)
         if best is None:
             return found
         is_optimal = value - bound <= self.precision * max(1.0, abs(value))
@@ -124,6 +120,9 @@ class CutPolicies(PolicyRun):
         stopped = None if is_optimal else self.stopped
         low, high = (end if math.isfinite(end) else None for end in (bound, value))
         return PolicyOutcome(status, stopped, low, high, best.graph, self.effort, plan_of=best.plan_of)
+
+    def _steps(self, cost: float) -> int:
+        return math.ceil(min(cost / float(self.grid.grid.step), MOST_LEFT))
 
     def _up_to(self, cut: int, limits: Limits) -> PolicyOutcome:
         """Search for the best policy that remembers so many steps.

@@ -65,9 +65,16 @@ def search_policy(
     if not grounding.handle.solvable:
         return hopeless(objective, failure_cost)
     problem = PolicyProblem(grounding, heuristic, limits)
-    outcome = _run_of(problem, objective, failure_cost, precision, progress, limits, value_of).outcome(limits)
+    run = _run_of(problem, objective, failure_cost, precision, progress, limits, value_of)
+    outcome = run.outcome(limits)
     if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE or outcome.reason is not None:
         return outcome
+    if run.is_undecided:
+        reason = (
+            f"whether any policy has a finite value by '{objective}' is too close to call: the spectral radius of a "
+            "loop is 1 to within 1e-9. A slightly smaller alpha tells"
+        )
+        return replace(outcome, status=Status.GAVE_UP, reason=reason)
     return _with_reason(problem, outcome, objective, limits)
 
 

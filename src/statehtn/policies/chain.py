@@ -14,6 +14,8 @@ from statehtn.model.policy_graph import End, FlatPolicy
 from statehtn.policies.components import components
 from statehtn.policies.equations import by_law, log_sum, solution
 
+NEARLY_NEUTRAL = 1e-3
+"""Of a slope times the mean: below, an exponential is nearly a line."""
 ROUNDING = 1e-9
 """Of solutions relative to their largest: what is less than nothing by more than that has no meaning."""
 
@@ -109,6 +111,10 @@ class Chain:
         """
         flat = self.flat
         means = by_law(flat.laws, lambda law: law.exponential_mean(slope))
+        if abs(slope) * self.mean(failure) < NEARLY_NEUTRAL:
+            near = self._nearly_neutral(slope, failure, means)
+            if near is not None:
+                return near
         weights = [math.log(p) + slope * mean for p, mean in zip(flat.probabilities, means, strict=True)]
         logs = [slope * value for value in self._end_values(failure)]
         for component in self.order:
@@ -120,6 +126,25 @@ class Chain:
                 continue
             self._solve_logs(component, logs, weights, slope, failure)
         return logs[0] / slope + 0.0
+
+    def _nearly_neutral(self, slope: float, failure: float, means: Sequence[float]) -> float | None:
+        """Return the same where exponents are small, whose logarithms would lose digits; None where a loop is not.
+
+        What is carried over is `N = E[(e^(slope C) - 1) / slope]`, nearly the mean.
+        """
+        flat = self.flat
+
+        def grown(cost: float) -> float:
+            return math.expm1(slope * cost) / slope
+
+        weights = [p * math.exp(slope * mean) for p, mean in zip(flat.probabilities, means, strict=True)]
+        constants = [
+            math.fsum(flat.probabilities[branch] * grown(means[branch]) for branch in flat.branches(node))
+            for node in range(len(flat))
+        ]
+        values = self._end_values(grown(failure))
+        self._solve(values, weights, constants, grown(failure))
+        return math.log1p(slope * values[0]) / slope if min(values) >= 0 and max(values) < math.inf else None
 
     def _end_values(self, failure: float) -> list[float]:
         return [failure if end in (End.FAILED, End.GIVEN_UP) else 0.0 for end in self.flat.ends]
