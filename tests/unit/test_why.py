@@ -10,7 +10,7 @@ import pytest
 
 import statehtn
 from statehtn.cli.program import main
-from statehtn.errors import UnsupportedError
+from statehtn.errors import UnsupportedError, UsageError
 from statehtn.model import Problem
 from statehtn.model.status import Status
 from tests.pages import ROOT, blocks
@@ -70,6 +70,56 @@ def test_plans_that_count_on_outcomes() -> None:
     assert "(at a) is false, and no outcomes of the steps before lead farther" in never.reasons[0]
     with pytest.raises(UnsupportedError, match="a policy can"):
         statehtn.why(problem, ["(drive a b)"])
+
+
+def test_outcomes_after_which_nothing_is_left() -> None:
+    answer = statehtn.why(read(SLIPPERY_ROADS, SLIPPERY.replace("0.5 ()", "0.1 (not (at ?a)) 0.4 ()")))
+    assert isinstance(answer, statehtn.NoPlan)
+    assert answer.status is Status.UNSOLVABLE
+    assert answer.chance is not None
+    assert answer.chance.most_success == pytest.approx(0.81)
+    assert answer.chance.is_proven
+    found = [(str(bad.action), bad.probability, round(bad.reached, 9)) for bad in answer.chance.dead_ends]
+    assert found == [("(walk a b)", 0.1, 0.1), ("(walk b c)", 0.1, 0.09)]
+    assert "(walk a b) if it does not come to (at b), 0.1; runs of that policy come to it with" in str(answer)
+    assert "--failure-cost" in str(answer)
+    assert answer.to_dict()["chance"]["dead_ends"][0]["deleted"] == ["(at a)"]
+
+
+def test_policies_that_an_averse_agent_loathes() -> None:
+    gripper = statehtn.read_hddl(*(str(ROOT / f"domains/gripper-robot/{name}.hddl") for name in ("domain", "p1")))
+    calm = statehtn.why(gripper, objective="averse 0.3")
+    assert isinstance(calm, statehtn.NoPlan)
+    assert calm.status is Status.SOLVED
+    assert "There is a policy that is done with probability 1" in str(calm)
+    answer = statehtn.why(gripper, attitude="averse", alpha=0.7)
+    assert isinstance(answer, statehtn.NoPlan)
+    assert answer.chance is not None
+    assert [(str(bad.action), bad.probability) for bad in answer.chance.loops] == [("(suck ball)", 0.5)]
+    assert answer.chance.finite_below == pytest.approx(math.log(2))
+    assert "none has a finite value by 'averse 0.7'" in str(answer)
+
+
+def test_an_objective_matters_to_plans_and_policies_alone() -> None:
+    with pytest.raises(UsageError, match="an objective matters to a given plan alone"):
+        statehtn.why(read(UNREACHABLE), objective="averse 0.3")
+    with pytest.raises(UsageError, match="plans are not compared by 'success'"):
+        statehtn.why(read(SLIPPERY_ROADS, SLIPPERY), ["(walk a b)"], objective=statehtn.Success())
+
+
+@pytest.mark.parametrize("command", ["plan", "policy"])
+def test_three_lines_about_chance(
+    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("d.hddl").write_text(SLIPPERY.replace("0.5 ()", "0.1 (not (at ?a)) 0.4 ()"), encoding="utf-8")
+    Path("p.hddl").write_text(SLIPPERY_ROADS, encoding="utf-8")
+    assert main([command, "d.hddl", "p.hddl"]) == 10
+    lines = capsys.readouterr().out.splitlines()[-2:]
+    assert lines == [
+        "why: nothing is left that could be done after (walk a b) if it does not come to (at b), 0.1",
+        "'statehtn why' with the same files says more",
+    ]
 
 
 def test_roots_and_additions() -> None:
@@ -171,7 +221,7 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.usefixtures("files")
 def test_mistakes_and_limits(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["why", "d.hddl", "solvable.hddl", "--alpha", "1", "--attitude", "averse"]) == 2
-    assert "--plan alone" in capsys.readouterr().err
+    assert "to a given plan alone" in capsys.readouterr().err
     assert main(["why", "d.hddl", "nowhere.hddl"]) == 30
     assert main(["why", "d.hddl", "solvable.hddl", "--time-limit", "1e-9"]) == 20
     capsys.readouterr()

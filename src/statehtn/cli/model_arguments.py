@@ -61,14 +61,14 @@ def add_why(commands: Commands) -> None:
         "why",
         help="say why there is no plan, or why it is not that plan",
         description="Say why a problem has no plan: which task cannot be accomplished, and of each of its methods why "
-        "not, down to the roots. With --plan: what a given plan violates, or what it costs more than the best, and "
-        "where.",
+        "not, down to the roots. Where actions have several outcomes: why it has no policy. With --plan: what a given "
+        "plan violates, or what it costs more than the best, and where.",
         epilog=WHY_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     add_inputs(parser)
     parser.add_argument("--plan", metavar="FILE", help="ask about this plan; - for standard input")
-    add_objective(parser, "with --plan: the agent", has_budgets=False)
+    add_objective(parser, "the agent, with --plan or where actions have several outcomes", has_budgets=False)
     add_limits(parser)
     parser.add_argument("--json", action="store_true", help="print the answer as one JSON object")

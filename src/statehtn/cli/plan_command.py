@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import sys
-from contextlib import suppress
 from functools import partial
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.formats import printed
+from statehtn.cli.no_plan import say_why
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import objective_in
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
@@ -18,7 +18,7 @@ from statehtn.core.heuristics import PORTFOLIO
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
 from statehtn.hddl.plan_format import write_plan
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
 from statehtn.result import Result
@@ -88,8 +88,9 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         and session.problem is not None
         and options.format == "table"
         and not options.quiet
+        and not result.largest  # there are plans, but none keeps the budgets
     ):
-        _say_why(result, session.problem, limits)
+        say_why(session.problem, limits)
     if keeper.failure is not None:
         raise keeper.failure
     return EXIT_CODES[result.status]
@@ -158,19 +159,6 @@ class _PlanKeeper:
                 self.output.remove()
             except OutputError as error:
                 self.failure = error
-
-
-def _say_why(result: Result, problem: Problem, limits: Limits) -> None:
-    """Say in three lines why there is no plan, as far as that is found soon."""
-    if result.largest:
-        return  # there are plans, but none keeps the budgets
-    from statehtn.display.explanation import reason_lines
-    from statehtn.explanation.explanation import reason_soon  # only for problems without a plan
-
-    with suppress(LimitReached, KeyboardInterrupt):
-        lines = reason_lines(reason_soon(problem, limits))
-        emit_lines(["", *lines])
-    emit("'statehtn why' with the same files says more")
 
 
 def _print(result: Result, problem: Problem | None, options: argparse.Namespace, beside: bool) -> None:

@@ -10,12 +10,14 @@ from functools import partial
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
+from statehtn.cli.no_plan import say_why
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import policy_settings_in
 from statehtn.cli.streams import emit
 from statehtn.decomposition import to_dot, to_svg
 from statehtn.errors import UsageError
 from statehtn.limits import Limits
+from statehtn.model.status import Status
 from statehtn.policies.result import PolicyResult
 from statehtn.policies.run import find_policy
 from statehtn.session import Session
@@ -46,7 +48,11 @@ def run_policy(options: argparse.Namespace, session: Session | None = None, limi
     limits = limits or Limits.starting_now(options.time_limit, options.memory_limit)
     with ProgressLine(silent=options.quiet) as progress:
         result = find_policy(session, settings, limits, progress.show_policy if progress.visible else None)
-    _print(result, options, beside=any(file.is_stdout for file, _ in pictures))
+    beside = any(file.is_stdout for file, _ in pictures)
+    _print(result, options, beside)
+    is_told = options.json or options.quiet or beside
+    if result.status is Status.UNSOLVABLE and session.problem is not None and not is_told:
+        say_why(session.problem, limits, settings.objective)
     _draw(result, pictures)
     return EXIT_CODES[result.status]
 

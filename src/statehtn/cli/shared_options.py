@@ -11,6 +11,7 @@ from statehtn.settings import DEFAULT_PRECISION, PRECISION_OF_SUMS, objective_of
 
 if TYPE_CHECKING:
     from statehtn.policies.settings import PolicySettings
+    from statehtn.risk.policy_objectives import PolicyObjective
 
 
 def add_inputs(parser: argparse.ArgumentParser) -> None:
@@ -111,6 +112,19 @@ def policy_settings_in(options: argparse.Namespace) -> PolicySettings:
     _check_said_once(options)
     how = options.failure_cost, options.adaptive, options.precision
     return PolicySettings.of(options.objective, options.attitude, options.alpha, *how)
+
+
+def policy_objective_in(options: argparse.Namespace) -> PolicyObjective:
+    """Return the objective that the options name, `success` included.
+
+    Raises:
+        UsageError: there is none like that, or it is named in both ways.
+        UnsupportedError: there are no policies by it.
+    """
+    from statehtn.policies.settings import policy_objective
+
+    _check_said_once(options)
+    return policy_objective(options.objective, options.attitude, options.alpha)
 
 
 def _check_said_once(options: argparse.Namespace) -> None:

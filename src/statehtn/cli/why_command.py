@@ -8,9 +8,8 @@ import json
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.plan_files import read_plan_file
-from statehtn.cli.shared_options import objective_in
+from statehtn.cli.shared_options import objective_in, policy_objective_in
 from statehtn.cli.streams import emit
-from statehtn.errors import UsageError
 from statehtn.explanation.explanation import NoPlan, why_no_plan
 from statehtn.explanation.given_plan import WhyNot, why_not
 from statehtn.limits import LimitReached, Limits
@@ -25,15 +24,14 @@ def run_why(options: argparse.Namespace) -> ExitCode:
         LimitReached: a limit was reached before the input was read.
     """
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
-    settings = Settings.of(objective_in(options))
-    if options.plan is None and any((options.objective, options.attitude, options.alpha is not None)):
-        raise UsageError("an objective matters to --plan alone; whether there is a plan does not depend on it")
     answer: NoPlan | WhyNot
     try:
         problem = read_problem(options, limits)
         if options.plan is None:
-            answer = why_no_plan(problem, limits)
+            is_given = any((options.objective, options.attitude, options.alpha is not None))
+            answer = why_no_plan(problem, limits, policy_objective_in(options) if is_given else None)
         else:
+            settings = Settings.of(objective_in(options))
             answer = why_not(problem, read_plan_file(options.plan, problem, limits), settings, limits)
     except LimitReached as ending:
         if not options.json:

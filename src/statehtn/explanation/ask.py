@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from statehtn.errors import UsageError
 from statehtn.expected import items
 from statehtn.explanation.explanation import NoPlan, why_no_plan
 from statehtn.explanation.given_plan import WhyNot, why_not
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem, Step
 from statehtn.model.expect import expect_problem
-from statehtn.risk import AttitudeName, ObjectiveLike
+from statehtn.policies.settings import policy_objective
+from statehtn.risk import AttitudeName, ObjectiveLike, Success
 from statehtn.settings import Settings, objective_of
 
 
@@ -18,7 +20,7 @@ def why(
     problem: Problem,
     plan: Plan | Iterable[str | Step] | None = None,
     *,
-    objective: ObjectiveLike | None = None,
+    objective: ObjectiveLike | Success | None = None,
     attitude: AttitudeName | None = None,
     alpha: float | None = None,
     time_limit: float | None = None,
@@ -29,7 +31,8 @@ def why(
     Args:
         problem: a problem, such as `read_hddl` returns.
         plan: a plan of it, or a list of actions such as `["(drive a b)"]`; None to ask why there is no plan.
-        objective: with a plan: what plans are compared by, such as "cvar 0.95"; the expected cost if none is given.
+        objective: with a plan: what plans are compared by, such as "cvar 0.95"; where actions have several outcomes:
+            what policies are compared by; the expected cost if none is given.
         attitude: averse, neutral or seeking, instead of an objective.
         alpha: how much such an agent cares, per unit of cost.
         time_limit: seconds.
@@ -39,13 +42,16 @@ def why(
         `NoPlan`, or `WhyNot` for a given plan; both print what they have to say. A limit is a status of them.
 
     Raises:
-        UsageError: an argument is out of its range.
+        UsageError: an argument is out of its range, or an objective is given where it does not matter.
         InputError: a cost is not defined, or an action of the list is none.
         UnsupportedError: a precondition falls into too many cases.
     """
     expect_problem(problem)
     limits = Limits.starting_now(time_limit, memory_limit)
-    settings = Settings.of(objective_of(objective, attitude, alpha))
     if plan is None:
-        return why_no_plan(problem, limits)
+        is_given = objective is not None or attitude is not None or alpha is not None
+        return why_no_plan(problem, limits, policy_objective(objective, attitude, alpha) if is_given else None)
+    if isinstance(objective, Success):
+        raise UsageError("plans are not compared by 'success', policies are")
+    settings = Settings.of(objective_of(objective, attitude, alpha))
     return why_not(problem, plan if isinstance(plan, Plan) else items(plan, "the actions"), settings, limits)

@@ -7,7 +7,7 @@ other are solved together, after all that they lead to.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import cached_property
 
 from statehtn.model.policy_graph import End, FlatPolicy
@@ -84,6 +84,21 @@ class Chain:
             return 1.0
         values = [1.0 if is_sure else 0.0 for is_sure in sure]
         self._solve(values, flat.probabilities, [0.0] * len(flat), 0.0, sure)
+        return min(1.0, max(0.0, values[0]))
+
+    def probability_of(self, branches: Collection[int]) -> float:
+        """Return the probability that a run takes one of some branches, by indices, at least once.
+
+        From the nodes of these branches a run must be able to come to an end.
+        """
+        flat = self.flat
+        weights = [0.0 if branch in branches else p for branch, p in enumerate(flat.probabilities)]
+        constants = [
+            math.fsum(flat.probabilities[branch] for branch in flat.branches(node) if branch in branches)
+            for node in range(len(flat))
+        ]
+        values = [0.0] * len(flat)
+        self._solve(values, weights, constants, 0.0, self.endless)
         return min(1.0, max(0.0, values[0]))
 
     def mean(self, failure: float) -> float:
