@@ -90,6 +90,9 @@ def test_values_are_sums_over_all_runs(graph: PolicyGraph) -> None:
         priced = policy(graph, failure_cost=failure)
         assert math.isclose(priced.value, math.fsum(p * c for c, p in costs.items()), rel_tol=1e-9, abs_tol=1e-9)
         law = priced.cost_distribution()
+        assert math.isclose(law.least, law.outcomes[0][1], abs_tol=1e-9)
+        most = math.inf if law.infinite or law.totals.cut else law.outcomes[-1][1]
+        assert law.most == most or math.isclose(law.most, most, rel_tol=1e-9)
         for budget in range(8):
             late = math.fsum(p for cost, p in costs.items() if cost > budget)
             assert math.isclose(law.exceedance(budget), late, abs_tol=1e-9)
@@ -105,7 +108,10 @@ def test_runs_without_an_end() -> None:
     assert policy(retry(probability=0)).expected_cost == math.inf
     assert policy(retry(probability=0, cost=0)).expected_cost == 0
     assert policy(retry(probability=0, cost=0), failure_cost=7).expected_cost == 7
-    assert policy(retry(probability=0, cost=0), failure_cost=7).cost_distribution().outcomes == ((1, 7),)
+    free = policy(retry(probability=0, cost=0), failure_cost=7).cost_distribution()
+    assert (free.outcomes, free.least, free.most) == (((1, 7),), 7, 7)
+    paid = policy(never).cost_distribution()
+    assert (paid.least, paid.most) == (math.inf, math.inf)
 
 
 def _followed(graph: PolicyGraph) -> tuple[dict[float, float], dict[float, float], float]:

@@ -13,6 +13,7 @@ from statehtn.model.cost.distribution import ROUNDING, CostDistribution
 from statehtn.model.cost.infinite import InfiniteMean
 from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_function, checked_probability
 from statehtn.policies.chain import Chain
+from statehtn.policies.extremes import largest_cost, least_cost
 from statehtn.policies.simulation import sampled_costs
 from statehtn.policies.totals import Totals, totals_of
 
@@ -100,15 +101,15 @@ class PolicyCost(CostLaw):
         mean = self.mean
         return math.sqrt(math.fsum(probability * (cost - mean) ** 2 for probability, cost in self.outcomes))
 
-    @property
+    @cached_property
     def least(self) -> float:
         """The least cost that is possible."""
-        return self.outcomes[0][1] if self.outcomes else math.inf
+        return least_cost(self.chain, self.failure)
 
-    @property
+    @cached_property
     def most(self) -> float:
         """The largest cost that is possible; infinite where a loop may cost any amount."""
-        return math.inf if self.infinite or self.totals.cut else self.outcomes[-1][1]
+        return largest_cost(self.chain, self.failure)
 
     def cdf(self, cost: float) -> float:
         """Return the probability of paying at most `cost`."""
