@@ -204,9 +204,7 @@ public:
     }
 
 private:
-    const relax::NetworkNodes::Node& place(std::uint32_t node) const {
-        return source_->nodes()[trace().nodes.at(node)];
-    }
+    const relax::NetworkNodes::Node& place(std::uint32_t node) const { return trace().nodes.at(node); }
     const relax::OrderedTasks& ordered(std::uint32_t node) {
         return progression_->ordered_tasks(source_->nodes().network(place(node).pair));
     }

@@ -19,14 +19,40 @@ double StepAmounts::of(const PolicyOutcome& outcome) const {
 const std::vector<PolicyDecision>& PlanningSource::decisions(PolicyNodeId node) {
     const PairId pair = nodes_[node].pair;
     progression_.decisions(nodes_.state(pair), nodes_.network(pair), decisions_);
+    for (PolicyDecision& decision : decisions_) {
+        follow(decision, nullptr);
+    }
     return decisions_;
 }
 
 PlanningSource::Traced PlanningSource::trace(PolicyNodeId node, std::uint32_t decision) {
-    const PolicyDecision& found = decisions(node)[decision];
+    const PairId pair = nodes_[node].pair;
+    progression_.decisions(nodes_.state(pair), nodes_.network(pair), decisions_);
+    PolicyDecision& found = decisions_[decision];
+    steps_.assign(1, {nodes_.state(pair), nodes_.network(pair), found.step, std::nullopt});
+    follow(found, &steps_);
     branches_.clear();
     list_branches(nodes_[node].left, found, branches_);
-    return {found.step, branches_};
+    return {steps_, branches_};
+}
+
+// Let a decision go on as long as it can. Recursion might do so for ever.
+void PlanningSource::follow(PolicyDecision& decision, std::vector<TracedStep>* steps) {
+    constexpr std::uint32_t kMostSteps = 100;
+    for (std::uint32_t count = 0; count < kMostSteps; ++count) {
+        if (decision.outcomes.size() != 1 || !progression_.costs_and_changes_nothing(decision.outcomes.front())) {
+            return;
+        }
+        const PolicyOutcome& to = decision.outcomes.front();
+        progression_.decisions(to.state, to.network, next_);
+        if (next_.size() != 1) {
+            return;
+        }
+        if (steps != nullptr) {
+            steps->push_back({to.state, to.network, next_.front().step, to.action});
+        }
+        std::swap(decision.outcomes, next_.front().outcomes);
+    }
 }
 
 NetworkSource::NetworkSource(PolicyProgression& progression, std::vector<double> probabilities,

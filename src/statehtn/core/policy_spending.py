@@ -213,10 +213,12 @@ class SpendingPolicies(PolicyRun):
         if enough is None:
             status = self.stopped or Status.GAVE_UP
             return PolicyOutcome(status, self.stopped, low, None, None, self.effort)
-        found = self.search(enough, limits.with_grace(1.0))
-        outcome = self.finish(found)
+        stopped = self.stopped
+        outcome = self.finish(self.search(enough, limits.with_grace(1.0)))
         high = float(self.step * enough)
-        return replace(outcome, lower=low, upper=high, status=Status.OPTIMAL if low == high else Status.SOLVED)
+        if low == high:
+            return replace(outcome, lower=low, upper=high, status=Status.OPTIMAL, stopped=None)
+        return replace(outcome, lower=low, upper=high, status=Status.SOLVED, stopped=stopped or self.stopped)
 
     def _mean_cvar(self, objective: ConditionalValueAtRisk | MeanCvar, limits: Limits) -> PolicyOutcome:
         """Find the best amount by branch and bound over intervals of amounts.
@@ -265,9 +267,10 @@ class SpendingPolicies(PolicyRun):
                 if other - one > 1:
                     heapq.heappush(open_intervals, (*bound(one, other), one, other))
         lower = min([least_closed, *(interval[0] for interval in open_intervals)])
+        stopped = self.stopped
         outcome = self.finish(self.search(best_amount, limits.with_grace(1.0)))
         low_value, high_value = self.values(lower, best)
         is_optimal = low_value is not None and best - low_value <= self.precision * max(1.0, abs(best))
         status = Status.OPTIMAL if is_optimal else Status.SOLVED
-        stopped = None if is_optimal else self.stopped
+        stopped = None if is_optimal else stopped or self.stopped
         return replace(outcome, lower=low_value, upper=high_value, status=status, stopped=stopped)

@@ -34,7 +34,20 @@ struct TracedBranch {
     PolicyNodeId successor;
 };
 
+// A step of the agent's, where it is taken. But for the first one of a decision, also the action that led there, if
+// any.
+struct TracedStep {
+    StateId state;
+    NetworkId network;
+    SearchStep step;
+    std::optional<ActionId> before;
+};
+
 // A source whose nodes are states and networks.
+//
+// A decision goes on through all that must come after it: where it decomposes a task, or executes an action that costs
+// and changes nothing, and a single decision is left then, that one is taken, too. States and networks on the way are
+// no nodes. They would be worth what the decision is worth; and to give up there is to give up before it.
 class PlanningSource : public DecisionSource {
 public:
     // `probabilities`: by ActionId, of outcome actions; 1 for others.
@@ -42,11 +55,13 @@ public:
         : progression_(progression), nodes_(progression), probabilities_(std::move(probabilities)) {}
 
     const NetworkNodes& nodes() const { return nodes_; }
+    PairId pair_of(StateId state, NetworkId network) { return nodes_.pair_of(state, network); }
     PolicyProgression& progression() { return progression_; }
 
-    // What a decision of an expanded node is, and what may come of it; valid until the next call. Throws Stopped.
+    // The steps of a decision of an expanded node, and what may come of the last one; valid until the next call. Throws
+    // Stopped.
     struct Traced {
-        SearchStep step;
+        std::span<const TracedStep> steps;
         std::span<const TracedBranch> branches;
     };
     Traced trace(PolicyNodeId node, std::uint32_t decision);
@@ -65,8 +80,12 @@ protected:
     NetworkNodes nodes_;
 
 private:
+    void follow(PolicyDecision& decision, std::vector<TracedStep>* steps);
+
     std::vector<double> probabilities_;
     std::vector<PolicyDecision> decisions_;
+    std::vector<PolicyDecision> next_;
+    std::vector<TracedStep> steps_;
     std::vector<TracedBranch> branches_;
 };
 

@@ -18,8 +18,9 @@ namespace relax {
 enum class PolicyEnd : std::uint8_t { GoesOn, Done, NothingLeft, GivesUp };
 
 // A policy in flat arrays: nodes, of which the first is where runs begin, and for each the branches of its decision.
+// There is a node for each step.
 struct PolicyTrace {
-    std::vector<PolicyNodeId> nodes;
+    std::vector<NetworkNodes::Node> nodes;
     std::vector<PolicyEnd> ends;        // by node
     std::vector<SearchStep> steps;      // by node; of no meaning at an end
     std::vector<std::uint32_t> first;   // by node, of its branches; and at the end the number of all

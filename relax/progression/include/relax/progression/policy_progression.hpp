@@ -104,6 +104,10 @@ public:
     NetworkId initial_network() { return progression_.initial_network(); }
     // Replace the content of `decisions` by those of a node. None: nothing is left to try, or all is done.
     void decisions(StateId state, NetworkId network, std::vector<PolicyDecision>& decisions);
+    // Whether nothing was executed, or an action that certainly costs nothing and changes nothing.
+    bool costs_and_changes_nothing(const PolicyOutcome& outcome) const {
+        return !outcome.action || progression_.is_executed_at_once(task_of(*outcome.action));
+    }
     // Whether all is done: the network is empty. (The goal is an action of the network.)
     bool is_done(NetworkId network) { return progression_.networks().is_empty(network); }
 
