@@ -7,7 +7,7 @@ worked out again from its decisions, and its runs are checked against the lifted
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 import pytest
@@ -18,8 +18,10 @@ import statehtn
 from statehtn import PolicyResult, Problem, Status
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
+from statehtn.model.policy_graph import PolicyNode
 from statehtn.policies.run import find_policy
 from statehtn.policies.settings import PolicySettings
+from statehtn.policies.trajectory import TakenStep, Trajectory
 from statehtn.risk import ObjectiveLike
 from statehtn.session import Session
 from tests.brute_force import GaveUp
@@ -148,10 +150,10 @@ def must_be_a_run(problem: Problem, result: PolicyResult, seed: int) -> None:
     semantics = Semantics(problem)
     trajectory = result.policy.trajectory(seed)
     state = problem.initial_state
-    for taken in trajectory.steps:
+    for taken, node in zip(trajectory.steps, nodes_after(trajectory), strict=True):
         found = ways(semantics, taken.step.action, taken.step.arguments, state)
         assert found is not None, taken
-        fitting = [way for way in found if fits(way, taken.added, taken.deleted, state)]
+        fitting = [way for way in found if fits(way, taken, node, state)]
         assert fitting, taken
         # How likely it is cannot be told from here: a branch may stand for outcomes whose difference does not matter.
         assert any(probability_of(way, taken.cost) for way in fitting), taken
@@ -162,9 +164,21 @@ def must_be_a_run(problem: Problem, result: PolicyResult, seed: int) -> None:
         assert [str(step) for step in plan.steps] == [str(taken.step) for taken in trajectory.steps]
 
 
-def fits(way: Way, added: State, deleted: State, state: State) -> bool:
+def nodes_after(trajectory: Trajectory) -> Iterator[PolicyNode]:
+    """Yield the node to which each action of a run has led."""
+    graph, node = trajectory.graph, 0
+    for branch in trajectory.branches:
+        decision = graph.nodes[node].decision
+        node = graph.flat.successors[branch]
+        if decision is not None and decision.action is not None:
+            yield graph.nodes[node]
+
+
+def fits(way: Way, taken: TakenStep, node: PolicyNode, state: State) -> bool:
+    """Tell whether a way may be what came: it agrees in all that matters afterwards."""
     after = way.state(state)
-    return added <= after and not deleted & after
+    assert node.known is not None
+    return after & node.known == node.facts & node.known and taken.added <= after and not taken.deleted & after
 
 
 def probability_of(way: Way, cost: float) -> Fraction:
