@@ -4,34 +4,39 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from typing import Any
 
-from statehtn.cli.completion_command import add_completion
-from statehtn.cli.epilogs import COMPARE_EPILOG, TOP_EPILOG, plan_epilog
+from statehtn.cli.epilogs import plan_epilog
 from statehtn.cli.formats import FORMATS
-from statehtn.cli.model_arguments import add_check, add_why
 from statehtn.cli.parser import Parser
-from statehtn.cli.policy_arguments import add_export, add_policy
-from statehtn.cli.risk_arguments import add_atlas, add_attitude, add_compare_attitudes
 from statehtn.cli.shared_options import (
-    add_agent,
     add_failing,
     add_inputs,
-    add_keep,
     add_limits,
     add_objective,
-    count,
 )
 from statehtn.cli.streams import emit
 from statehtn.compatible import HEURISTIC_CHOICES, NOTHING, SOLVERS, SWITCHES
-from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
 from statehtn.core.plan_based import BRANCHES
-from statehtn.core.searches import SEARCHES, TAKES
-from statehtn.core.top_plans import DISTINCT
+from statehtn.core.searches import SEARCHES
 from statehtn.errors import UsageError
-from statehtn.experiments.suites import DEFAULTS, SUITES
-from statehtn.risk import Attitude
 from statehtn.settings import DEFAULT_WEIGHT
+
+COMMANDS = (
+    "plan",
+    "policy",
+    "top",
+    "validate",
+    "check",
+    "why",
+    "compare-attitudes",
+    "atlas",
+    "attitude",
+    "compare",
+    "report",
+    "graph",
+    "export",
+    "completion",
+)
 
 
 class _ShowVersion(argparse.Action):
@@ -55,7 +60,8 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
         UsageError: the command line makes no sense.
         SystemExit: help or the version was asked for and printed.
     """
-    parser, commands = _parsers()
+    named = [name for name in arguments[:1] if name in COMMANDS]  # to add the options of all takes a while
+    parser, commands = _parsers(named or COMMANDS)
     chosen = next((commands.choices[word] for word in arguments if word in commands.choices), parser)
     chosen.check_options(arguments)
     return _with_stdin(parser.parse_args(arguments))
@@ -63,33 +69,48 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
 
 def make_parser() -> Parser:
     """Return the parser of the whole command line, for what is made of it: completion, and a manual page."""
-    return _parsers()[0]
+    return _parsers(COMMANDS)[0]
 
 
-def _parsers() -> tuple[Parser, argparse._SubParsersAction[Parser]]:
+def _parsers(names: Sequence[str]) -> tuple[Parser, argparse._SubParsersAction[Parser]]:
+    """Return a parser that knows these commands."""
     parser = Parser(prog="statehtn", description="Optimal hierarchical (HTN) planning under risk.", allow_abbrev=False)
     parser.add_argument("--version", action=_ShowVersion, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(
-        dest="command",
-        required=True,
-        metavar="plan|policy|top|validate|check|why|compare-attitudes|atlas|attitude|compare|report|graph|export|"
-        "completion",
-    )
-    _add_plan(commands)
-    add_policy(commands)
-    _add_top(commands)
-    _add_validate(commands)
-    add_check(commands)
-    add_why(commands)
-    add_compare_attitudes(commands)
-    add_atlas(commands)
-    add_attitude(commands)
-    _add_compare(commands)
-    _add_report(commands)
-    _add_graph(commands)
-    add_export(commands)
-    add_completion(commands)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="|".join(COMMANDS))
+    for name in names:
+        _add(name, commands)
     return parser, commands
+
+
+def _add(name: str, commands: argparse._SubParsersAction[Parser]) -> None:
+    """Add a command with its options; what they need is imported for it alone."""
+    match name:
+        case "plan":
+            _add_plan(commands)
+        case "policy" | "export":
+            from statehtn.cli.policy_arguments import add_export, add_policy
+
+            (add_policy if name == "policy" else add_export)(commands)
+        case "top" | "validate" | "graph":
+            from statehtn.cli.plan_arguments import add_graph, add_top, add_validate
+
+            {"top": add_top, "validate": add_validate, "graph": add_graph}[name](commands)
+        case "check" | "why":
+            from statehtn.cli.model_arguments import add_check, add_why
+
+            (add_check if name == "check" else add_why)(commands)
+        case "compare-attitudes" | "atlas" | "attitude":
+            from statehtn.cli.risk_arguments import add_atlas, add_attitude, add_compare_attitudes
+
+            {"compare-attitudes": add_compare_attitudes, "atlas": add_atlas, "attitude": add_attitude}[name](commands)
+        case "compare" | "report":
+            from statehtn.cli.compare_arguments import add_compare, add_report
+
+            (add_compare if name == "compare" else add_report)(commands)
+        case _:
+            from statehtn.cli.completion_command import add_completion
+
+            add_completion(commands)
 
 
 def _with_stdin(options: argparse.Namespace) -> argparse.Namespace:
@@ -164,150 +185,3 @@ def _add_plan(commands: argparse._SubParsersAction[Parser]) -> None:
     )
     form.add_argument("--json", dest="format", action="store_const", const="json", help="short for --format json")
     form.add_argument("--quiet", action="store_true", help="print the plan's actions only, one per line")
-
-
-def _add_top(commands: argparse._SubParsersAction[Parser]) -> None:
-    parser = commands.add_parser(
-        "top",
-        help="find the K best plans",
-        description="Find the K plans with the highest expected utility for an agent's attitude to risk, or the K best "
-        "by another objective, and prove it. Where there are fewer, all are printed.",
-        epilog=TOP_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
-    parser.add_argument("k", type=count, metavar="K", help="how many plans")
-    add_inputs(parser)
-    add_objective(parser)
-    search = parser.add_argument_group("the search")
-    search.add_argument(
-        "--distinct",
-        choices=list(DISTINCT),
-        default="sequence",
-        help="plans differ in the sequence of their actions (default), or plans with the same actions in another order "
-        "are one",
-    )
-    search.add_argument(
-        "--heuristic",
-        choices=list(HEURISTICS),
-        metavar=f"{{{','.join(ADMISSIBLE)}}}",  # why it takes no others, the search says itself
-        help=f"default: {TAKES['state', 'top'][0]}",
-    )
-    add_limits(search)
-    output = parser.add_argument_group("output")
-    output.add_argument(
-        "--output", metavar="DIR", help="write each plan with its decomposition (IPC 2020 format) into this folder"
-    )
-    form = output.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="print the result as one JSON object")
-    form.add_argument("--quiet", action="store_true", help="print the plans' actions only, one plan per line")
-
-
-def _add_validate(commands: argparse._SubParsersAction[Parser]) -> None:
-    parser = commands.add_parser(
-        "validate",
-        help="check a plan and its decomposition",
-        description="Check a plan with its decomposition (IPC 2020 format), independently of the search; or a list of "
-        "actions, one in each line, for which a decomposition is searched.",
-        epilog="Exit codes: 0 valid, 1 invalid, 2 usage, 20 time limit, 21 memory limit, 30 input error, "
-        "31 unsupported feature.",
-        allow_abbrev=False,
-    )
-    add_inputs(parser)
-    parser.add_argument("plan", metavar="PLAN", help="plan file; - for standard input")
-    add_limits(parser)
-    parser.add_argument("--json", action="store_true", help="print the verdict as one JSON object")
-
-
-def _add_compare(commands: argparse._SubParsersAction[Parser]) -> None:
-    parser = commands.add_parser(
-        "compare",
-        help="run a suite of problems with several settings, and record every run",
-        description="Run every problem of a suite with every combination of the settings, each run in a process of its "
-        "own. Options that take several values may be repeated, too.",
-        epilog=COMPARE_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
-
-    def several(name: str, **options: Any) -> None:
-        parser.add_argument(name, action="extend", nargs="+", **options)
-
-    parser.add_argument("--suite", required=True, metavar="NAME|FILE.toml", help=f"{', '.join(SUITES)}, or a file")
-    parser.add_argument("--root", metavar="DIR", help="folder of the suite's problems; needed for ipc")
-    several("--domain", metavar="GLOB", help="only domains of this name, such as '*Satellite*'")
-    several("--problem", metavar="GLOB", help="only problems of this name")
-    several("--attitude", choices=[str(attitude) for attitude in Attitude], help="default: the suite's own")
-    several("--alpha", type=float, metavar="A", help="for the averse and the seeking")
-    several("--objective", metavar="TEXT", help="in the place of attitudes, or beside them, such as 'cvar 0.95'")
-    add_keep(parser)
-    several("--solver", choices=list(SOLVERS), help="default: the suite's own, else state")
-    several("--heuristic", choices=HEURISTIC_CHOICES, help="default: that of solver and search in 'statehtn plan'")
-    several("--search", choices=list(SEARCHES), help="default: astar")
-    several("--without", metavar="NAME[+NAME]", help=f"as of 'statehtn plan'; '{NOTHING}' is the complete search")
-    parser.add_argument("--repeat", type=count, metavar="N", help="do everything so many times, one after the other")
-    parser.add_argument(
-        "--time-limit",
-        type=float,
-        metavar="S",
-        help=f"seconds for a run, reading included; default: {DEFAULTS.time_limit:g}",
-    )
-    parser.add_argument(
-        "--memory-limit",
-        type=float,
-        metavar="MB",
-        help=f"of a run's process, in 10^6 bytes; default: {DEFAULTS.memory_limit:g}",
-    )
-    where = parser.add_mutually_exclusive_group()
-    where.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at the same time; default: 1")
-    where.add_argument(
-        "--dask",
-        metavar="ADDRESS",
-        help="run on the workers of the Dask cluster whose scheduler is there, such as tcp://127.0.0.1:8786",
-    )
-    parser.add_argument(
-        "--output",
-        metavar="FILE.csv",
-        help="append a row for each run as it ends, and all about it to FILE.jsonl; what is there already is not run "
-        "again. Without it rows go to standard output",
-    )
-    several(
-        "--retry",
-        choices=["errors", "killed"],
-        help="run again what the table has with the status 'error' (crashed, or killed from outside) or 'killed'",
-    )
-    parser.add_argument("--quiet", action="store_true", help="show no progress and no summary")
-
-
-def _add_report(commands: argparse._SubParsersAction[Parser]) -> None:
-    parser = commands.add_parser(
-        "report",
-        help="write a page about the results of a comparison",
-        description="Write one page of HTML about the results of 'statehtn compare': the paper's tables beside these, "
-        "the distributions of the plans' costs, the solvers against each other, coverage. It needs no network.",
-        epilog="Exit codes: 0 written, 2 usage, 30 input error, 74 cannot write.",
-        allow_abbrev=False,
-    )
-    parser.add_argument("results", metavar="FILE.csv", help="the table of results; FILE.jsonl is expected beside it")
-    parser.add_argument("--output", metavar="FILE.html", required=True, help="the page")
-
-
-def _add_graph(commands: argparse._SubParsersAction[Parser]) -> None:
-    parser = commands.add_parser(
-        "graph",
-        help="write the task decomposition graph, or the relaxed model",
-        description="Write a graph of the problem: the task decomposition graph of the domain (cv-tdg), that of the "
-        "ground problem with the least risk cost of every task and method for an agent (gcv-tdg), or the relaxed model "
-        "of the initial state and network.",
-        epilog="Exit codes: 0 written, 2 usage, 30 input error, 31 unsupported feature, 74 cannot write.",
-        allow_abbrev=False,
-    )
-    add_inputs(parser)
-    parser.add_argument(
-        "--kind", choices=("cv-tdg", "gcv-tdg", "relaxed-model"), default="gcv-tdg", help="default: gcv-tdg"
-    )
-    add_agent(parser)
-    parser.add_argument("--output", metavar="FILE", required=True, help="*.svg, *.dot, *.gv or *.graphml; - for stdout")
-    parser.add_argument(
-        "--format", choices=("svg", "dot", "graphml"), help="what to write; default: as the name of FILE ends"
-    )

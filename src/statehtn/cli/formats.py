@@ -8,7 +8,6 @@ import json
 from typing import TextIO
 
 from statehtn.counted import finite
-from statehtn.hddl.plan_format import write_plan
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.problem import Problem
 from statehtn.result import Result
@@ -30,7 +29,11 @@ def printed(result: Result, problem: Problem | None, form: str, stream: TextIO) 
         return readable_result(result, stream)
     if result.plan is None or problem is None:
         return None
-    return write_plan(result.plan, problem).rstrip("\n") if form == "ipc" else _csv(result)
+    if form == "csv":
+        return _csv(result)
+    from statehtn.hddl.plan_format import write_plan
+
+    return write_plan(result.plan, problem).rstrip("\n")
 
 
 def _csv(result: Result) -> str:

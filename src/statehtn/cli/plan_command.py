@@ -9,7 +9,6 @@ from functools import partial
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.formats import printed
-from statehtn.cli.no_plan import say_why
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import objective_in
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
@@ -17,7 +16,6 @@ from statehtn.compatible import NOTHING, switches_in
 from statehtn.core.heuristics import PORTFOLIO
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
-from statehtn.hddl.plan_format import write_plan
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
@@ -90,6 +88,8 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         and not options.quiet
         and not result.largest  # there are plans, but none keeps the budgets
     ):
+        from statehtn.cli.no_plan import say_why
+
         say_why(session.problem, limits)
     if keeper.failure is not None:
         raise keeper.failure
@@ -143,6 +143,8 @@ class _PlanKeeper:
         """Write the plan of a result, unless it stands there."""
         if self.output is None or result.plan is None or result.plan is self.written:
             return
+        from statehtn.hddl.plan_format import write_plan  # without a file nothing needs it
+
         self.failure = None
         try:
             self.output.write(write_plan(result.plan, problem), self.limits)

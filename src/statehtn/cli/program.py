@@ -17,7 +17,6 @@ from statehtn.cli.arguments import make_parser, parse_arguments
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.plan_command import run_plan
 from statehtn.cli.streams import OutputError, reopen_closed_streams, say
-from statehtn.cli.validate_command import run_validate
 from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, UsageError, one_line
 from statehtn.limits import LimitReached
 
@@ -53,6 +52,8 @@ def _run(options: argparse.Namespace) -> ExitCode:
 
             return run_top(options)
         case "validate":
+            from statehtn.cli.validate_command import run_validate
+
             return run_validate(options)
         case "check":
             from statehtn.cli.check_command import run_check
