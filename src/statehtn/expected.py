@@ -6,6 +6,7 @@ import os
 import reprlib
 from collections.abc import Callable, Collection, Iterable
 from decimal import Decimal
+from fractions import Fraction
 from numbers import Integral, Real
 from typing import Any, SupportsIndex, cast
 
@@ -109,6 +110,14 @@ def shown(value: object) -> str:
     if len(text) > MOST_CHARACTERS:
         text = f"{text[: MOST_CHARACTERS - 3]}..."
     return f"{text} ({kind.__name__})"
+
+
+def shown_number(value: Fraction | float) -> str:
+    """Return a number of the input as people write it; in words where it is too large for that."""
+    try:
+        return f"{float(value):.12g}"
+    except OverflowError:
+        return "a number of more than 308 digits"
 
 
 def file_name(value: object, what: str) -> str:

@@ -26,8 +26,9 @@ from statehtn.model import (
     Problem,
 )
 from statehtn.model.cost.expressions import evaluate
-from statehtn.model.cost.ground_cost import CostWarning, action_law, block_law
+from statehtn.model.cost.ground_cost import action_law, block_law
 from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
+from statehtn.model.cost.probabilities import CostWarning
 
 VALUES = {("slow", "a", "b"): Fraction(6), ("fast", "a", "b"): Fraction(2), ("jam",): Fraction(1, 4)}
 FROM_TO = (Parameter("?a"), Parameter("?b"))

@@ -11,7 +11,7 @@ from statehtn.errors import UnsupportedError
 from statehtn.hddl.reader import read_hddl_text
 from statehtn.limits import LimitReached, Limits, resident_mb
 from statehtn.model import GroundAction, GroundProblem, Problem
-from statehtn.model.cost.ground_cost import CostWarning
+from statehtn.model.cost.probabilities import CostWarning
 from statehtn.model.status import Status
 
 CONSTANTS = "(:constants l0 l1 l2 - place)"

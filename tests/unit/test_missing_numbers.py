@@ -11,7 +11,7 @@ import statehtn
 from statehtn.cli.program import main
 from statehtn.hddl import read_hddl_text
 from statehtn.model import Problem
-from statehtn.model.cost.ground_cost import CostWarning
+from statehtn.model.cost.probabilities import CostWarning
 from statehtn.model.cost.unknown import MissingNumber
 from statehtn.settings import SearchName
 
@@ -48,7 +48,7 @@ def test_a_number_that_the_best_plan_does_not_need() -> None:
     assert len(caught) == 1
 
 
-@pytest.mark.filterwarnings("ignore::statehtn.model.cost.ground_cost.CostWarning")
+@pytest.mark.filterwarnings("ignore::statehtn.model.cost.probabilities.CostWarning")
 @pytest.mark.parametrize("search", ["astar", "weighted", "greedy", "anytime"])
 def test_a_number_that_the_best_plan_needs(search: SearchName) -> None:
     """Sailing costs 2 at least, walking 5: whether it is better depends on the fare."""
@@ -56,7 +56,7 @@ def test_a_number_that_the_best_plan_needs(search: SearchName) -> None:
         statehtn.plan(crossing(COMPLETE.replace("(fare left right)", "(fare right right)")), search=search)
 
 
-@pytest.mark.filterwarnings("ignore::statehtn.model.cost.ground_cost.CostWarning")
+@pytest.mark.filterwarnings("ignore::statehtn.model.cost.probabilities.CostWarning")
 def test_known_parts_of_a_cost_count() -> None:
     """Whatever the fare is, walking for 1 is better than the 2 that sailing costs at least."""
     problem = crossing("(= (toll right) 1)")
@@ -71,7 +71,7 @@ def test_known_parts_of_a_cost_count() -> None:
         statehtn.compare_attitudes(crossing(""), alpha=1.0)
 
 
-@pytest.mark.filterwarnings("ignore::statehtn.model.cost.ground_cost.CostWarning")
+@pytest.mark.filterwarnings("ignore::statehtn.model.cost.probabilities.CostWarning")
 def test_numbers_of_conditional_parts() -> None:
     complete = f"{COMPLETE} (= (fare left left) 1) (= (fare right right) 1)"
     assert statehtn.plan(crossing(complete)).risk_cost == 3  # there is no storm
@@ -82,7 +82,7 @@ def test_numbers_of_conditional_parts() -> None:
     assert statehtn.plan(crossing(f"{complete} (storm) (= (risk) 0.5) (= (delay) 2)")).risk_cost == 4
 
 
-@pytest.mark.filterwarnings("ignore::statehtn.model.cost.ground_cost.CostWarning")
+@pytest.mark.filterwarnings("ignore::statehtn.model.cost.probabilities.CostWarning")
 def test_a_plan_that_a_limit_leaves_unvalidated(monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt

@@ -8,6 +8,7 @@ from typing import Any
 
 from statehtn.build.declarations import Declarations, Scope
 from statehtn.errors import UsageError
+from statehtn.expected import shown_number
 from statehtn.model import And, Atom, Fact
 from statehtn.model.chance import Chance, Outcome
 from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE, exact
@@ -29,7 +30,7 @@ def chance_of(outcomes: Iterable[Any], declared: Declarations) -> Chance:
         found[facts] = found.get(facts, Fraction(0)) + probability
     total = sum(found.values(), Fraction(0))
     if abs(total - 1) > PROBABILITY_TOLERANCE:
-        raise UsageError(f"the probabilities of a chance must sum to 1, found {float(total):.12g}")
+        raise UsageError(f"the probabilities of a chance must sum to 1, found {shown_number(total)}")
     return Chance(tuple(Outcome(weight / total, facts) for facts, weight in found.items() if weight))
 
 

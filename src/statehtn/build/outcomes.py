@@ -19,6 +19,7 @@ from statehtn.build.parts import (
     listed,
 )
 from statehtn.errors import UsageError
+from statehtn.expected import shown_number
 from statehtn.model import TRUE, And, Expression, Formula, OutcomeBlock, Parameter
 from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE, Amount, Computable
 from statehtn.model.cost.expressions import sum_of_constants
@@ -108,7 +109,7 @@ def outcomes_of(
 def _check_sum(outcomes: Sequence[ModelOutcome], action: str) -> None:
     total = sum_of_constants(outcome.probability for outcome in outcomes)
     if total is not None and abs(total - 1) > PROBABILITY_TOLERANCE:
-        write = f"; Outcome({float(1 - total):.12g}) is one in which nothing happens" if total < 1 else ""
+        write = f"; Outcome({shown_number(1 - total)}) is one in which nothing happens" if total < 1 else ""
         raise UsageError(
-            f"the probabilities of the outcomes of action '{action}' must sum to 1, found {float(total):.12g}{write}"
+            f"the probabilities of the outcomes of action '{action}' must sum to 1, found {shown_number(total)}{write}"
         )

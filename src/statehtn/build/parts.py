@@ -16,6 +16,7 @@ from statehtn.build.declarations import Declarations, Scope
 from statehtn.build.external import external
 from statehtn.build.terms import checked_formula, checked_variables
 from statehtn.errors import UsageError
+from statehtn.expected import shown_number
 from statehtn.model import (
     TRUE,
     And,
@@ -128,7 +129,7 @@ def chance(*branches: tuple[Computable | Amount, Computable | Amount]) -> Chance
     total = sum((value for value in values if value is not None), Fraction(0))
     off = total - 1
     if off > PROBABILITY_TOLERANCE or (off < -PROBABILITY_TOLERANCE and None not in values):
-        raise UsageError(f"the probabilities of a cost must sum to 1, found {float(total):.12g}")
+        raise UsageError(f"the probabilities of a cost must sum to 1, found {shown_number(total)}")
     return Chance(tuple(found))
 
 

@@ -17,12 +17,12 @@ from statehtn.model import (
 from statehtn.model.cost.blocks import Arithmetic, Expression, FunctionTerm
 from statehtn.model.cost.ground_cost import (
     UNIT_COST,
-    CostWarning,
     block_law,
     is_unconditional,
     sum_in_scenario,
     sum_of_blocks,
 )
+from statehtn.model.cost.probabilities import CostWarning
 from statehtn.model.cost.scenario_cost import by_scenario, mixed
 from statehtn.model.cost.unknown import MissingNumber, UnknownCost
 from statehtn.model.problem import Action, Fact

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
+from statehtn.expected import shown_number
 from statehtn.hddl.cost_reader import not_read, read_number
 from statehtn.hddl.diagnostics import Reporter
 from statehtn.hddl.expressions import Group, Node, Word, describe, parse_group
@@ -72,10 +73,12 @@ class ChanceReader:
             outcomes[facts] = outcomes.get(facts, Fraction(0)) + self._probability(probability)
         total = sum(outcomes.values(), Fraction(0))
         if total > 1 + PROBABILITY_TOLERANCE:
-            raise self._reporter.error(f"the probabilities of this block sum to {float(total):.12g}, more than 1", node)
+            raise self._reporter.error(
+                f"the probabilities of this block sum to {shown_number(total)}, more than 1", node
+            )
         if total < 1 - PROBABILITY_TOLERANCE:
             self._reporter.warn(
-                f"the probabilities of this block sum to {float(total):.12g}; with the rest none of its facts holds",
+                f"the probabilities of this block sum to {shown_number(total)}; with the rest none of its facts holds",
                 node,
             )
             outcomes[frozenset()] = outcomes.get(frozenset(), Fraction(0)) + 1 - total
@@ -92,7 +95,7 @@ class ChanceReader:
                 raise self._reporter.error(not_read("a probability", node), node)
             raise self._reporter.error(f"expected a probability, found {describe(node)}", node)
         if value < 0:
-            raise self._reporter.error(f"a probability must not be negative, found {float(value):.12g}", node)
+            raise self._reporter.error(f"a probability must not be negative, found {shown_number(value)}", node)
         return value
 
     def _facts(self, node: Node) -> Iterator[Fact]:

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from statehtn.expected import shown_number
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.vocabulary import Scope, Vocabulary
@@ -88,7 +89,7 @@ class CostReader:
         cost = self.expression(amount, scope)
         value = constant_value(cost)
         if value is not None and value < 0:
-            raise self.reporter.error(f"a cost must not be negative, found {_shown(value)}", amount)
+            raise self.reporter.error(f"a cost must not be negative, found {shown_number(value)}", amount)
         return cost
 
     def probabilistic(self, node: Group, scope: Scope) -> Branches:
@@ -120,7 +121,7 @@ class CostReader:
             value = constant_value(probability)
             if value is not None and value < 0:
                 raise self.reporter.error(
-                    f"a probability must not be negative, found {_shown(value)}", probability_node
+                    f"a probability must not be negative, found {shown_number(value)}", probability_node
                 )
             pairs.append((probability, effect))
         return pairs
@@ -185,9 +186,13 @@ class CostReader:
         values = [constant_value(probability) for probability, _ in pairs]
         total = sum((value for value in values if value is not None), Fraction(0))
         if total > 1 + PROBABILITY_TOLERANCE:  # those that are not constant are at least 0
-            raise self.reporter.error(f"the probabilities of this block sum to {_shown(total)}, more than 1", node)
+            raise self.reporter.error(
+                f"the probabilities of this block sum to {shown_number(total)}, more than 1", node
+            )
         if None not in values and total < 1 - PROBABILITY_TOLERANCE:
-            self.reporter.warn(f"the probabilities of this block sum to {_shown(total)}; with the rest {rest}", node)
+            self.reporter.warn(
+                f"the probabilities of this block sum to {shown_number(total)}; with the rest {rest}", node
+            )
 
 
 def refusal(node: Group, vocabulary: Vocabulary, reporter: Reporter) -> Exception:
@@ -205,10 +210,3 @@ def refusal(node: Group, vocabulary: Vocabulary, reporter: Reporter) -> Exceptio
     if node.head in ("or", "imply", "exists", "="):
         return reporter.error(f"'{node.head}' cannot be an effect", node)
     return reporter.error(unknown("predicate", node.name, vocabulary.predicates), node.items[0])
-
-
-def _shown(value: Fraction) -> str:
-    try:
-        return f"{float(value):.12g}"
-    except OverflowError:
-        return "a number of more than 308 digits"

@@ -19,7 +19,7 @@ from statehtn.inspection.finding import Finding, Level
 from statehtn.inspection.subject import Subject, whole_condition
 from statehtn.limits import LimitReached, Limits
 from statehtn.model import Action, Atom, Method, Problem
-from statehtn.model.cost.ground_cost import CostWarning
+from statehtn.model.cost.probabilities import CostWarning
 from statehtn.model.cost.sum import parts_of
 from statehtn.model.cost.unknown import UnknownCost
 from statehtn.model.formula import conjuncts

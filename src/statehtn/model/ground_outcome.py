@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from fractions import Fraction
 
 from statehtn.errors import InputError
-from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE, FunctionValues, Number
+from statehtn.expected import shown_number
+from statehtn.model.cost.blocks import FunctionValues, Number
 from statehtn.model.cost.expressions import evaluate
-from statehtn.model.cost.ground_cost import LARGEST_SHOWN, CostWarning
+from statehtn.model.cost.probabilities import completed
 from statehtn.model.outcome import OutcomeBlock
 from statehtn.model.problem import Action
 
@@ -39,30 +39,9 @@ def branch_probabilities(
         except InputError as error:
             raise InputError(f"the outcomes of {name}: {error.message}", block.place) from None
     if any(probability < 0 for probability in stated):
-        least = _shown(min(stated))
+        least = shown_number(min(stated))
         raise InputError(f"the outcomes of {name}: a probability must not be negative, found {least}", block.place)
-    total = sum(stated, Fraction(0))
-    rest = (Fraction(0),) * (len(block.branches) - len(stated))
-    if total == 1:
-        return (*stated, *rest)
-    if total > 1 + PROBABILITY_TOLERANCE:
-        raise InputError(
-            f"the probabilities of the outcomes of {name} sum to {_shown(total)}, more than 1; those of one block must "
-            f"sum to 1",
-            block.place,
-        )
-    if total >= 1 - PROBABILITY_TOLERANCE:  # what is off by rounding only is spread over all branches
-        return (*(probability / total for probability in stated), *rest)
-    if not all(isinstance(outcome.probability, Number) for outcome in block.outcomes):  # the reader saw the others
-        # Names the lifted action only, so that Python shows it once and not for every ground action.
-        warnings.warn(
-            f"some probabilities of the outcomes of action '{action.name}' sum to less than 1; with the rest nothing "
-            f"happens",
-            CostWarning,
-            stacklevel=2,
-        )
-    return (*stated, 1 - total)
-
-
-def _shown(value: Fraction) -> str:
-    return f"{float(value):.12g}" if abs(value) < LARGEST_SHOWN else "a very large number"
+    is_computed = not all(isinstance(outcome.probability, Number) for outcome in block.outcomes)
+    what = "outcomes", "with the rest nothing happens"
+    shares, rest = completed(stated, what, (name, action.name), block.place, is_computed)
+    return (*shares, rest) if len(block.branches) > len(shares) else shares

@@ -11,7 +11,7 @@ from operator import mul
 from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError, UsageError
-from statehtn.expected import expect, number, shown, whole_number
+from statehtn.expected import expect, number, shown, shown_number, whole_number
 from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_function, checked_probability
 from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
 
@@ -283,5 +283,5 @@ def checked_outcomes(outcomes: Iterable[tuple[float, float]]) -> tuple[tuple[flo
             merged[cost] = merged.get(cost, 0.0) + probability
     total = math.fsum(merged.values())
     if abs(total - 1) > PROBABILITY_TOLERANCE:
-        raise InputError(f"the probabilities of a cost must sum to 1, found {total:.12g}")
+        raise InputError(f"the probabilities of a cost must sum to 1, found {shown_number(total)}")
     return tuple((merged[cost], float(cost)) for cost in sorted(merged))

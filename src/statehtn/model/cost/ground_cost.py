@@ -7,16 +7,17 @@ domain's unit.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError, StateHtnError
+from statehtn.expected import shown_number
 from statehtn.model.cost.blocks import CostBlock, FunctionValues, Number
-from statehtn.model.cost.distribution import PROBABILITY_TOLERANCE, CostDistribution
+from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.expressions import evaluate
 from statehtn.model.cost.law import CostLaw, is_of_scipy
+from statehtn.model.cost.probabilities import completed
 from statehtn.model.cost.scenario_cost import by_scenario
 from statehtn.model.cost.sum import CostSum
 from statehtn.model.formula import TRUE, Fact
@@ -28,7 +29,6 @@ UNIT_COST = CostDistribution.certain(1.0)
 """What every action costs where the domain states no costs at all."""
 LARGEST_COST = 1e290
 """Of an action, in the domain's unit: a plan of a billion billion steps still has a finite cost."""
-LARGEST_SHOWN = 10**300  # a float can hold it
 
 MOST_OUTCOMES = 256
 MOST_PAIRS = 1024
@@ -40,10 +40,7 @@ Blocks = Iterable[tuple[int, tuple[str, ...]]]
 ExactLaw = dict[Fraction, Fraction]
 """A cost distribution in exact numbers: the probability of every cost; the probabilities sum to exactly 1."""
 FREE: ExactLaw = {Fraction(0): Fraction(1)}
-
-
-class CostWarning(UserWarning):
-    """A cost is defined, but perhaps not as it was meant."""
+FREE_BRANCH = Fraction(1), Fraction(0)
 
 
 def block_law(
@@ -209,7 +206,7 @@ def _block(
         return _external_law(block.external(*arguments), action, arguments)
     bindings = {parameter.name: name for parameter, name in zip(action.parameters, arguments, strict=True)}
     bindings.update((parameter.name, name) for parameter, name in zip(block.parameters, objects, strict=True))
-    law: ExactLaw = {}
+    stated: list[tuple[Fraction, Fraction]] = []
     for probability_expression, cost_expression in block.branches:
         try:
             probability = evaluate(probability_expression, bindings, values)
@@ -218,31 +215,15 @@ def _block(
             _check("a cost", cost)
         except InputError as error:
             raise type(error)(f"the cost of {_name(action, arguments)}: {error.message}", block.place) from None
-        if probability:
-            law[cost] = law.get(cost, Fraction(0)) + probability
-    return _completed(law, block, action, arguments)
-
-
-def _completed(law: ExactLaw, block: CostBlock, action: Action, arguments: tuple[str, ...]) -> ExactLaw:
-    """Let what is missing to probability 1 cost 0; what is off by rounding only is spread over all branches."""
-    total = sum(law.values(), Fraction(0))
-    if total > 1 + PROBABILITY_TOLERANCE:
-        raise InputError(
-            f"the probabilities of the cost of {_name(action, arguments)} sum to {float(total):.12g}, more than 1; "
-            f"the branches of one block must sum to 1",
-            block.place,
-        )
-    if total < 1 - PROBABILITY_TOLERANCE:
-        law[Fraction(0)] = law.get(Fraction(0), Fraction(0)) + 1 - total
-        if not all(isinstance(probability, Number) for probability, _ in block.branches):  # the reader saw the others
-            # Names the lifted action only, so that Python shows it once and not for every ground action.
-            warnings.warn(
-                f"some probabilities of the cost of action '{action.name}' sum to less than 1; the rest costs 0",
-                CostWarning,
-                stacklevel=2,
-            )
-        return law
-    return law if total == 1 else {cost: probability / total for cost, probability in law.items()}
+        stated.append((probability, cost))
+    is_computed = not all(isinstance(probability, Number) for probability, _ in block.branches)
+    what, names = ("cost", "the rest costs 0"), (_name(action, arguments), action.name)
+    shares, rest = completed([probability for probability, _ in stated], what, names, block.place, is_computed)
+    law: ExactLaw = {}
+    for share, (_, cost) in zip((*shares, rest), (*stated, FREE_BRANCH), strict=True):
+        if share:
+            law[cost] = law.get(cost, Fraction(0)) + share
+    return law
 
 
 def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) -> ExactLaw | CostLaw:
@@ -295,8 +276,7 @@ def _rounded(law: ExactLaw, action: Action, arguments: tuple[str, ...]) -> CostD
 
 def _check(what: str, value: Fraction) -> None:
     if value < 0:
-        shown = f"{float(value):g}" if abs(value) < LARGEST_SHOWN else "a very large negative number"
-        raise InputError(f"{what} must not be negative, found {shown}")
+        raise InputError(f"{what} must not be negative, found {shown_number(value)}")
 
 
 def _name(action: Action, arguments: tuple[str, ...]) -> str:
