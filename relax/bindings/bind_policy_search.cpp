@@ -110,6 +110,13 @@ public:
         };
     }
 
+    void set_precision(double precision) {
+        options_.precision = precision;
+        if (search_) {
+            search_->set_precision(precision);
+        }
+    }
+
     double certain_cost(double worth) const {
         std::vector<relax::DisutilityTerm> terms;
         for (const auto& priced : terms_) {
@@ -142,8 +149,10 @@ public:
                 if (spending_ != nullptr) {
                     spending_->begin_with(left);
                 }
-                if (cut_ != nullptr) {
+                if (cut_ != nullptr && left >= 0) {
                     cut_->set_cut(left);
+                } else if (cut_ != nullptr) {
+                    cut_->begin_beyond(static_cast<std::size_t>(-1 - left));
                 }
                 result = search_->run();
             }
@@ -177,6 +186,9 @@ public:
     // None where it is used up.
     std::optional<relax::AmountLeft> left(std::uint32_t node) {
         const relax::AmountLeft left = place(node).left;
+        if (cut_ != nullptr) {
+            return cut_->left_of(left);
+        }
         return left == relax::kSpent ? std::nullopt : std::optional(left);
     }
     std::pair<std::uint32_t, std::optional<relax::MethodId>> step(std::uint32_t node) const {
@@ -253,6 +265,7 @@ void bind_policy_search(nb::module_& module) {
              nb::keep_alive<1, 6>())
         .def("take_terms", &PolicyRun::take_terms, "laws"_a, "step"_a, "failure"_a, "heuristic"_a,
              nb::keep_alive<1, 2>())
+        .def("set_precision", &PolicyRun::set_precision, "precision"_a)
         .def("certain_cost", &PolicyRun::certain_cost, "worth"_a)
         .def("run", &PolicyRun::run, "left"_a = 0, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(),
              "steps"_a = nb::none(), "progress"_a = nb::none())

@@ -1,7 +1,9 @@
 #include "relax/policies/cut_source.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "relax/base/cost.hpp"
@@ -20,9 +22,20 @@ CutSource::CutSource(PolicyProgression& progression, std::vector<double> probabi
     }
 }
 
+void CutSource::set_cut(AmountLeft cut) {
+    const auto [found, is_new] = bases_.try_emplace(cut, next_base_);
+    if (is_new) {
+        assert(cut < std::numeric_limits<AmountLeft>::max() - next_base_);
+        next_base_ += cut + 1;
+    }
+    cut_ = cut;
+    base_ = found->second;
+    root_ = base_ + cut;
+}
+
 PolicyNodeId CutSource::add_root(DecisionGraph& graph) {
     const StateId state = progression_.initial_state();
-    return add(graph, state, progression_.initial_network(), cut_);
+    return add(graph, state, progression_.initial_network(), root_);
 }
 
 PolicyNodeId CutSource::add(DecisionGraph& graph, StateId state, NetworkId network, AmountLeft left) {
@@ -117,12 +130,12 @@ void CutSource::draft(DecisionGraph& graph, AmountLeft left, const PolicyDecisio
             continue;
         }
         const Law& law = law_of(outcome);
-        for (std::size_t at = 0; at < law.size() && law.at[at] <= left; ++at) {
+        for (std::size_t at = 0; at < law.size() && law.at[at] <= left - base_; ++at) {
             draft.weights.push_back(std::log(p * law.probability[at]));
             draft.successors.push_back(
                 add(graph, outcome.state, outcome.network, static_cast<AmountLeft>(left - law.at[at])));
         }
-        if (law.at.back() > left) {
+        if (law.at.back() > left - base_) {
             lead_beyond(graph, left, outcome, law, p, draft);
         }
     }
@@ -133,7 +146,7 @@ void CutSource::lead_beyond(DecisionGraph& graph, double left, const PolicyOutco
                             DraftDecision& draft) {
     for (std::size_t term = 0; term < terms_.size(); ++term) {
         double factor = -kNever;
-        for (std::size_t at = law.size(); at-- > 0 && law.at[at] > left;) {
+        for (std::size_t at = law.size(); at-- > 0 && law.at[at] > left - base_;) {
             const double weight = std::log(p * law.probability[at]) + terms_[term].log_weight;
             const double cost = spent(left - law.at[at]);
             draft.constant = log_sum(draft.constant, weight + terms_[term].log_constant(cost));
@@ -161,7 +174,7 @@ void CutSource::list_branches(AmountLeft left, const PolicyDecision& decision, s
         const Law& law = law_of(outcome);
         double exceeding = 0;
         for (std::size_t at = 0; at < law.size(); ++at) {
-            if (law.at[at] <= left) {
+            if (law.at[at] <= left - base_) {
                 put(p * law.probability[at], static_cast<AmountLeft>(left - law.at[at]));
             } else {
                 exceeding += p * law.probability[at];

@@ -17,8 +17,7 @@ double StepAmounts::of(const PolicyOutcome& outcome) const {
 }
 
 const std::vector<PolicyDecision>& PlanningSource::decisions(PolicyNodeId node) {
-    const PairId pair = nodes_[node].pair;
-    progression_.decisions(nodes_.state(pair), nodes_.network(pair), decisions_);
+    find_decisions(node);
     for (PolicyDecision& decision : decisions_) {
         follow(decision, nullptr);
     }
@@ -26,14 +25,20 @@ const std::vector<PolicyDecision>& PlanningSource::decisions(PolicyNodeId node) 
 }
 
 PlanningSource::Traced PlanningSource::trace(PolicyNodeId node, std::uint32_t decision) {
+    find_decisions(node);
     const PairId pair = nodes_[node].pair;
-    progression_.decisions(nodes_.state(pair), nodes_.network(pair), decisions_);
     PolicyDecision& found = decisions_[decision];
     steps_.assign(1, {nodes_.state(pair), nodes_.network(pair), found.step, std::nullopt});
     follow(found, &steps_);
     branches_.clear();
     list_branches(nodes_[node].left, found, branches_);
     return {steps_, branches_};
+}
+
+void PlanningSource::find_decisions(PolicyNodeId node) {
+    const auto [pair, left] = nodes_[node];
+    heeds_costs_ = left >= 0;
+    progression_.decisions(nodes_.state(pair), nodes_.network(pair), decisions_, heeds_costs_);
 }
 
 // Let a decision go on as long as it can. Recursion might do so for ever.
@@ -44,7 +49,7 @@ void PlanningSource::follow(PolicyDecision& decision, std::vector<TracedStep>* s
             return;
         }
         const PolicyOutcome& to = decision.outcomes.front();
-        progression_.decisions(to.state, to.network, next_);
+        progression_.decisions(to.state, to.network, next_, heeds_costs_);
         if (next_.size() != 1) {
             return;
         }

@@ -15,7 +15,9 @@ constexpr std::uint32_t kMostRounds = 10000;
 void PolicyIteration::improve(Envelope& envelope, Recursion kind) {
     sure_region_.make_proper(envelope);
     const bool may_be_infinite = kind == Recursion::Averse || kind == Recursion::LogExpected;
-    if (evaluation_.evaluate(envelope, kind) != LinearOutcome::Solved && may_be_infinite) {
+    const LinearOutcome outcome = evaluation_.evaluate(envelope, kind);
+    is_undecided_ = is_undecided_ || outcome == LinearOutcome::Undecided;
+    if (outcome != LinearOutcome::Solved && may_be_infinite) {
         start_finite(envelope, kind);
     }
     iterate(envelope, kind);

@@ -59,15 +59,23 @@ PolicyProgression::PolicyProgression(const AnalysedProblem& problem, const std::
     : problem_(problem),
       transition_(problem),
       progression_(problem, free_actions, progression_options(options), limits),
-      is_uncertain_(uncertain_tasks(problem, seen, limits)),
+      heeding_{uncertain_tasks(problem, seen, limits), std::nullopt},
       uses_lone_members_(options.lone_members),
       only_done_runs_pay_(options.only_done_runs_pay) {
+    if (!seen.actions.empty() || !seen.parts.empty()) {
+        heedless_.emplace(uncertain_tasks(problem, {}, limits), std::nullopt);
+    }
     if (options.stubborn_sets) {
-        stubborn_set_.emplace(problem, limits, &is_uncertain_);
+        heeding_.stubborn_set.emplace(problem, limits, &heeding_.is_uncertain);
+        if (heedless_) {
+            heedless_->stubborn_set.emplace(problem, limits, &heedless_->is_uncertain);
+        }
     }
 }
 
-void PolicyProgression::decisions(StateId state, NetworkId network, std::vector<PolicyDecision>& decisions) {
+void PolicyProgression::decisions(StateId state, NetworkId network, std::vector<PolicyDecision>& decisions,
+                                  bool heeds_costs) {
+    branching_ = heeds_costs || !heedless_ ? &heeding_ : &*heedless_;
     decisions.clear();
     unconstrained_.clear();
     networks().unconstrained(network, unconstrained_);
@@ -94,7 +102,8 @@ void PolicyProgression::choose(StateId state, NetworkId network) {
         chosen_.push_back(*first);
         return;
     }
-    if (!stubborn_set_ || unconstrained_.size() <= 1) {
+    std::optional<StubbornSet>& stubborn_set = branching_->stubborn_set;
+    if (!stubborn_set || unconstrained_.size() <= 1) {
         chosen_ = unconstrained_;
         return;
     }
@@ -104,7 +113,7 @@ void PolicyProgression::choose(StateId state, NetworkId network) {
         return;
     }
     const std::optional<Occurrence> compound = compound_to_decompose(ordered);
-    const auto actions = stubborn_set_->find(ordered, states()[state], unconstrained_);
+    const auto actions = stubborn_set->find(ordered, states()[state], unconstrained_);
     if (actions && (!compound || actions->size() <= problem_.methods_of(compound->task).size())) {
         chosen_.assign(actions->begin(), actions->end());
     } else if (compound) {
@@ -117,7 +126,7 @@ void PolicyProgression::choose(StateId state, NetworkId network) {
 void PolicyProgression::find_uncertain(const OrderedTasks& ordered) {
     uncertain_.clear();
     for (std::uint32_t index = 0; index < ordered.tasks.size(); ++index) {
-        if (is_uncertain_[ordered.tasks[index]]) {
+        if (branching_->is_uncertain[ordered.tasks[index]]) {
             uncertain_.push_back(index);
         }
     }
@@ -125,7 +134,7 @@ void PolicyProgression::find_uncertain(const OrderedTasks& ordered) {
 
 // Rule (3). False where it says nothing.
 bool PolicyProgression::choose_lone_member(StateId state, const OrderedTasks& ordered) {
-    const auto actions = stubborn_set_->find(ordered, states()[state], unconstrained_, false);
+    const auto actions = branching_->stubborn_set->find(ordered, states()[state], unconstrained_, false);
     if (!actions || actions->size() > (only_done_runs_pay_ ? 1 : 0)) {
         return false;
     }

@@ -8,17 +8,19 @@ follows from its runs. The cut moves until the two meet.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import statehtn._relax as _relax
 from statehtn.core.law_grid import LawGrid
-from statehtn.core.policy_laws import SpendingLaws
+from statehtn.core.policy_laws import BranchLaws, SpendingLaws
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem, Prices
-from statehtn.core.policy_run import PolicyRun, Watch
+from statehtn.core.policy_run import PolicyRun, Watch, effort_of
 from statehtn.core.policy_spending import MOST_LEFT
+from statehtn.core.progress import Progress
 from statehtn.limits import Limits
 from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
@@ -29,6 +31,8 @@ ROUNDING = 2.0**-38
 LEAST_TOLERANCE = 1e-15
 FINER = 64
 """By which the tolerance is divided where certainty equivalents are farther apart than logarithms."""
+MOST_CUT = MOST_LEFT // 8
+"""So that all cuts together have no more steps than can be told apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,12 +71,19 @@ class CutPolicies(PolicyRun):
     ) -> None:
         super().__init__(problem, precision, watch)
         self.objective = objective
-        self.failure_cost = failure_cost
         self.grid = grid
+        self.step = float(grid.grid.step)
         self.value_of = value_of
         self.tolerance = precision / 16
         """How far apart the bounds of the core may be: logarithms, relative to the larger, or to 1."""
-        self.run: _relax.PolicyRun
+        self.bound, self.value = -math.inf, math.inf
+        handle = self.terms[0].prices.handle
+        self.run = problem.run(self.options, handle, only_done_runs_pay=failure_cost is None, sees_costs=True)
+        for term in self.terms:
+            prices = term.prices
+            self.run.add_term(term.slope, term.log_weight, prices.actions, prices.parts, prices.handle, prices.unit)
+        failure = math.inf if failure_cost is None else failure_cost
+        self.run.take_terms(grid.costs, self.step, failure, problem.heuristic)
 
     @cached_property
     def terms(self) -> list[_Term]:
@@ -91,57 +102,65 @@ class CutPolicies(PolicyRun):
 
         At first nothing is remembered: one policy may be best for all terms. Then it is as much as that one is worth.
         """
-        cut, bound, value = 0, -math.inf, math.inf
-        best: PolicyOutcome | None = None
+        cut: int | None = None
+        best: tuple[PolicyOutcome, int | None] | None = None
         while True:
             found = self._up_to(cut, limits)
-            bound = max(bound, -math.inf if found.lower is None else found.lower)
+            self.bound = max(self.bound, -math.inf if found.lower is None else found.lower)
             if found.graph is None:
                 break
-            assert found.upper is not None
             worth = self.value_of(found.graph.flat)
-            if best is None or worth < value:
-                best, value = found, worth
-            slack = self.precision * max(1.0, abs(value))
-            if value - bound <= slack or self.stopped is not None:
+            if best is None or worth < self.value:
+                best, self.value = (found, cut), worth
+            if self._is_optimal or self.stopped is not None:
                 break
-            if found.upper - bound > slack / 2:
+            if found.upper is not None and found.upper - self.bound > self._slack / 2:
                 if self.tolerance < LEAST_TOLERANCE:
                     break
                 self.tolerance /= FINER
-            elif cut == MOST_LEFT:
+                self.run.set_precision(self.tolerance)
+            elif cut == MOST_CUT:
                 break
             else:
-                cut = min(2 * cut + 1 if cut else self._steps(value), MOST_LEFT)
-        if best is None:
-            return found
-        is_optimal = value - bound <= self.precision * max(1.0, abs(value))
-        status = Status.OPTIMAL if is_optimal else Status.SOLVED
-        stopped = None if is_optimal else self.stopped
-        low, high = (end if math.isfinite(end) else None for end in (bound, value))
-        return PolicyOutcome(status, stopped, low, high, best.graph, self.effort, plan_of=best.plan_of)
+                cut = min(math.ceil(min(self.value / self.step, MOST_CUT)) if cut is None else 2 * cut + 1, MOST_CUT)
+        return found if best is None else self._closed(*best, cut, limits)
 
-    def _steps(self, cost: float) -> int:
-        return math.ceil(min(cost / float(self.grid.grid.step), MOST_LEFT))
+    @property
+    def _slack(self) -> float:
+        return self.precision * max(1.0, abs(self.value))
 
-    def _up_to(self, cut: int, limits: Limits) -> PolicyOutcome:
-        """Search for the best policy that remembers so many steps.
+    @property
+    def _is_optimal(self) -> bool:
+        return self.value - self.bound <= self._slack
+
+    def _closed(self, best: PolicyOutcome, its_cut: int | None, cut: int | None, limits: Limits) -> PolicyOutcome:
+        """Return the best outcome; where it is not that of the last run, its policy is found again, to be read."""
+        stopped = None if self._is_optimal else self.stopped
+        if its_cut != cut:
+            again = self._up_to(its_cut, limits.with_grace(1.0))
+            best = best if again.graph is None else again
+        status = Status.OPTIMAL if self._is_optimal else Status.SOLVED
+        low, high = _finite(self.bound), _finite(self.value)
+        return replace(best, status=status, stopped=stopped, lower=low, upper=high, effort=self.effort)
+
+    def _up_to(self, cut: int | None, limits: Limits) -> PolicyOutcome:
+        """Search for the best policy that remembers so many steps, or nothing at all.
 
         The lower bound is one of all policies. The upper bound is none of them, but what the policy would be worth if
         beyond the cut all terms were as small as they can be.
         """
-        is_sure = self.failure_cost is None
-        handle = self.terms[0].prices.handle
-        self.run = run = self.problem.run(self.options, handle, only_done_runs_pay=is_sure, sees_costs=True)
-        for term in self.terms:
-            prices = term.prices
-            run.add_term(term.slope, term.log_weight, prices.actions, prices.parts, prices.handle, prices.unit)
-        failure = math.inf if self.failure_cost is None else self.failure_cost
-        run.take_terms(self.grid.costs, float(self.grid.grid.step), failure, self.problem.heuristic)
-        before = self.effort
-        found = self.start(run, limits, cut)
-        self.effort += before
-        return self.finished(found.lower, found.upper, run, SpendingLaws(self.grid), found.upper < math.inf)
+        if cut is not None:
+            found = self.start(self.run, limits, cut)
+            return self.finished(found.lower, found.upper, self.run, SpendingLaws(self.grid), found.upper < math.inf)
+        lower, upper = list[float](), list[float]()
+        for number, term in reversed(list(enumerate(self.terms))):
+            found = self.start(self.run, limits, -1 - number)
+            lower.append(term.log_weight + found.lower)
+            upper.append(term.log_weight + (found.upper if found.upper < math.inf else found.lower))
+            if self.stopped is not None and number > 0:
+                limits = limits.with_grace(1.0)
+        laws, has_policy = BranchLaws(self.problem.grounding), found.upper < math.inf
+        return self.finished(_log_sum(lower), _log_sum(upper), self.run, laws, has_policy)
 
     @property
     def options(self) -> _relax.PolicySearchOptions:
@@ -158,6 +177,15 @@ class CutPolicies(PolicyRun):
         )
         return low, None if high == math.inf else high
 
+    def _report(self, statistics: _relax.PolicyStatistics) -> None:
+        assert self.watch is not None
+        seconds, effort = time.monotonic() - self.started, effort_of(statistics)
+        self.watch(Progress(seconds, effort, _finite(self.bound), _finite(self.value)))
+
+
+def _finite(number: float) -> float | None:
+    return number if math.isfinite(number) else None
+
 
 def _agent(slope: float) -> Neutral | Exponential:
     if slope == 0:
@@ -167,4 +195,6 @@ def _agent(slope: float) -> Neutral | Exponential:
 
 def _log_sum(logs: Sequence[float]) -> float:
     largest = max(logs)
+    if math.isinf(largest):
+        return largest
     return largest + math.log(math.fsum(math.exp(log - largest) for log in logs))

@@ -64,7 +64,7 @@ class PolicyRun(ABC):
     def start(self, run: _relax.PolicyRun, limits: Limits, left: int = 0) -> _relax.PolicyStatistics:
         """Let a run begin, or go on from another amount; returns its statistics."""
         result = run.run(left, *limits.left(), None if self.watch is None else self._report)
-        self.effort = _effort(result.statistics)
+        self.effort = effort_of(result.statistics)
         self.stopped = None if result.stop is None else STOPPED[result.stop]
         self.is_infinite = self.is_infinite or result.is_infinite
         self.is_undecided = self.is_undecided or result.is_undecided
@@ -96,8 +96,9 @@ class PolicyRun(ABC):
     def _report(self, statistics: _relax.PolicyStatistics) -> None:
         assert self.watch is not None
         low, high = self.values(statistics.lower, statistics.upper)
-        self.watch(Progress(time.monotonic() - self.started, _effort(statistics), low, high))
+        self.watch(Progress(time.monotonic() - self.started, effort_of(statistics), low, high))
 
 
-def _effort(statistics: _relax.PolicyStatistics) -> SearchEffort:
+def effort_of(statistics: _relax.PolicyStatistics) -> SearchEffort:
+    """Return the effort of a run in the core."""
     return SearchEffort(statistics.expanded, statistics.generated, statistics.evaluated, statistics.dead_ends)

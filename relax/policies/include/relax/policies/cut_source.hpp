@@ -1,7 +1,11 @@
 #ifndef RELAX_POLICIES_CUT_SOURCE_HPP
 #define RELAX_POLICIES_CUT_SOURCE_HPP
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "relax/policies/disutility_terms.hpp"
@@ -25,12 +29,15 @@ namespace relax {
 // by a monotone recursion.
 //
 // The policy that comes with them follows, beyond the cut, the one of the first term. Its value is not worked out here:
-// it is that of its runs, an upper value. With the first term the one of the largest slope A the two meet as the cut
-// grows. They differ in what the other terms are worth beyond the cut; there are finitely many nodes, so that this is
-// at most a multiple of e^(A' s) for the next slope A' < A where s was spent. The best policy has a finite E e^(A C),
-// so that it spends s or more with a probability of at most a multiple of e^(-A s): together e^((A' - A) s), which goes
-// to 0. (Where no slope is positive, the first term is the line, and the others are bounded; where there is no line,
-// either, e^(A s) goes to 0 by itself.)
+// it is that of its runs, an upper value. With the first term the one of the largest slope A, the two meet as the cut
+// grows. They differ by what the other terms are worth beyond the cut, which is at most a multiple of e^(A' s) for the
+// next slope A' < A where s was spent (the nodes of the first term's policy being finitely many). If A is positive, the
+// first term of this policy is what it is in this graph, so that E e^(A C) is at most a multiple of the best worth,
+// whatever the cut; hence it spends s or more with a probability of at most a multiple of e^(-A s). Together that is
+// e^((A' - A) s), which goes to 0. If A is not positive, e^(A' s) does so by itself.
+//
+// Where nothing is remembered, a search begins beyond the cut, once with each term: the sum of their worths is the
+// ideal point of all policies. Agents who heed no cost on the way need fewer decisions.
 class CutSource : public PlanningSource {
 public:
     // A term of the disutility, with what every action is worth by it alone: certainty equivalents in the unit of
@@ -50,15 +57,22 @@ public:
     CutSource(PolicyProgression& progression, std::vector<double> probabilities, const CostLaws& laws,
               const Costs& costs, const std::vector<PricedTerm>& terms, const HeuristicInfo& heuristic, Limits& limits);
 
-    // What may be spent before what was spent is forgotten, in steps. All runs of a search have the same cut.
-    void set_cut(AmountLeft cut) { cut_ = cut; }
+    // What may be spent before it is forgotten, in steps; from 0 on.
+    void set_cut(AmountLeft cut);
+    // Begin beyond the cut, with a term: what it is worth by itself.
+    void begin_beyond(std::size_t term) { root_ = beyond(term); }
+    // What is left until the present cut, of what a node has as that; none beyond it.
+    std::optional<AmountLeft> left_of(AmountLeft left) const {
+        return is_beyond(left) ? std::nullopt : std::optional(left - base_);
+    }
 
     PolicyNodeId add_root(DecisionGraph& graph) override;
     void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& decisions) override;
     double bound(PolicyNodeId node, double known) override;
 
 private:
-    // The nodes beyond the cut have as what is left the number of their term, from kSpent on.
+    // The nodes beyond the cut have as what is left the number of their term, from kSpent on. They serve every cut; the
+    // others differ from cut to cut, by a number that is added to what is left.
     static bool is_beyond(AmountLeft left) { return left < 0; }
     static AmountLeft beyond(std::size_t term) { return kSpent + static_cast<AmountLeft>(term); }
     static std::size_t term_of(AmountLeft left) { return static_cast<std::size_t>(left - kSpent); }
@@ -69,7 +83,7 @@ private:
     void lead_beyond(DecisionGraph& graph, double left, const PolicyOutcome& outcome, const Law& law, double p,
                      DraftDecision& draft);
     PolicyNodeId add(DecisionGraph& graph, StateId state, NetworkId network, AmountLeft left);
-    double spent(double left) const { return (cut_ - left) * costs_.step; }
+    double spent(double left) const { return (cut_ - (left - base_)) * costs_.step; }
     template <typename CostOf>
     double lower(AmountLeft left, CostOf cost_of) const;
     double stop(AmountLeft left) const;
@@ -83,6 +97,10 @@ private:
     std::vector<std::unique_ptr<PairBounds>> bounds_;
     Limits& limits_;
     AmountLeft cut_ = 0;
+    AmountLeft base_ = 0;                     // of the present cut
+    AmountLeft next_base_ = 0;                // larger than all that is left
+    std::map<AmountLeft, AmountLeft> bases_;  // by cut
+    AmountLeft root_ = 0;
 };
 
 }  // namespace relax

@@ -80,10 +80,12 @@ protected:
     NetworkNodes nodes_;
 
 private:
+    void find_decisions(PolicyNodeId node);
     void follow(PolicyDecision& decision, std::vector<TracedStep>* steps);
 
     std::vector<double> probabilities_;
     std::vector<PolicyDecision> decisions_;
+    bool heeds_costs_ = true;  // at the node of these: what is left matters there
     std::vector<PolicyDecision> next_;
     std::vector<TracedStep> steps_;
     std::vector<TracedBranch> branches_;

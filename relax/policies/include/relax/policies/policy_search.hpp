@@ -80,6 +80,9 @@ public:
     // From the source's root of the moment. What was explored by earlier runs is used.
     PolicySearchResult run();
 
+    // Of the runs to come.
+    void set_precision(double precision) { options_.precision = precision; }
+
     const DecisionGraph& graph() const { return graph_; }
 
 private:

@@ -103,7 +103,10 @@ public:
     StateId initial_state() { return progression_.initial_state(); }
     NetworkId initial_network() { return progression_.initial_network(); }
     // Replace the content of `decisions` by those of a node. None: nothing is left to try, or all is done.
-    void decisions(StateId state, NetworkId network, std::vector<PolicyDecision>& decisions);
+    //
+    // `heeds_costs`: whether the agent, who may see costs, still heeds them; from where it does not, costs are as if
+    // they were not seen, and fewer decisions are enough.
+    void decisions(StateId state, NetworkId network, std::vector<PolicyDecision>& decisions, bool heeds_costs = true);
     // Whether nothing was executed, or an action that certainly costs nothing and changes nothing.
     bool costs_and_changes_nothing(const PolicyOutcome& outcome) const {
         return !outcome.action || progression_.is_executed_at_once(task_of(*outcome.action));
@@ -116,10 +119,14 @@ public:
     const OrderedTasks& ordered_tasks(NetworkId network) { return progression_.ordered_tasks(network); }
     const StateRegistry& states() const { return progression_.states(); }
     TaskNetworks& networks() { return progression_.networks(); }
-    // By TaskId: whether it is uncertain, as said above.
-    const std::vector<bool>& is_uncertain() const { return is_uncertain_; }
 
 private:
+    // What is uncertain, by TaskId, and stubborn sets by that.
+    struct Branching {
+        std::vector<bool> is_uncertain;
+        std::optional<StubbornSet> stubborn_set;
+    };
+
     // An ordinary action or a chance task.
     bool is_action(TaskId task) const { return problem_.is_primitive(task) || problem_.is_chance(task); }
     bool is_applicable(const Occurrence& occurrence, StateId state) const {
@@ -136,11 +143,12 @@ private:
     const AnalysedProblem& problem_;
     StateTransition transition_;
     Progression progression_;
-    std::vector<bool> is_uncertain_;  // by TaskId
-    std::optional<StubbornSet> stubborn_set_;
+    Branching heeding_;
+    std::optional<Branching> heedless_;  // where costs are seen at all
     bool uses_lone_members_;
     bool only_done_runs_pay_;
     // Of the node looked at.
+    Branching* branching_ = &heeding_;
     std::vector<Occurrence> unconstrained_;
     std::vector<Occurrence> chosen_;
     std::vector<std::uint32_t> uncertain_;  // occurrences
