@@ -8,6 +8,10 @@ import pytest
 
 import statehtn
 from statehtn import PolicyResult, Status
+from statehtn.limits import Limits
+from statehtn.policies.run import find_policy
+from statehtn.policies.settings import PolicySettings
+from statehtn.session import Session
 
 DOMAIN = """
 (define (domain retry)
@@ -121,3 +125,13 @@ def test_slopes_of_nearly_nothing(slope: float) -> None:
 )
 def test_one_term_alone(objective: str, same: str) -> None:
     assert policy(objective, 5).value == pytest.approx(policy(same, 5).value, rel=1e-9)
+
+
+@pytest.mark.parametrize("steps", [1, 500, 2000, 5000, 20_000])
+def test_limits_leave_bounds(steps: int) -> None:
+    problem = statehtn.read_hddl("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p2.hddl")
+    settings = PolicySettings.of("exponentials linear=1 0.1:1 -0.1:3")
+    result = find_policy(Session(problem), settings, Limits(steps=steps))
+    assert result.stopped is Status.TIME_LIMIT
+    assert result.status is (Status.TIME_LIMIT if result.policy is None else Status.SOLVED)
+    assert (result.lower_bound or 0) <= 12.0042633472 <= (result.value or math.inf) + 1e-9
