@@ -98,6 +98,10 @@ def test_policies_that_an_averse_agent_loathes() -> None:
     assert [(str(bad.action), bad.probability) for bad in answer.chance.loops] == [("(suck ball)", 0.5)]
     assert answer.chance.finite_below == pytest.approx(math.log(2))
     assert "none has a finite value by 'averse 0.7'" in str(answer)
+    switch = statehtn.why(gripper, objective="one-switch alpha=0.7 tradeoff=1 wealth=9")
+    assert isinstance(switch, statehtn.NoPlan)
+    assert switch.chance is not None
+    assert switch.chance.finite_below == pytest.approx(math.log(2))
 
 
 def test_an_objective_matters_to_plans_and_policies_alone() -> None:

@@ -16,7 +16,7 @@ from statehtn.policies.chain import Chain
 from statehtn.policies.policy import Policy
 from statehtn.policies.run import find_policy
 from statehtn.policies.settings import PolicySettings
-from statehtn.risk import Attitude, Exponential, Neutral, Success
+from statehtn.risk import Attitude, Exponential, Exponentials, Neutral, OneSwitch, Success
 from statehtn.risk.policy_objectives import PolicyObjective
 from statehtn.session import Session
 
@@ -182,11 +182,21 @@ def _alive(graph: PolicyGraph) -> bytearray:
     return alive
 
 
+def _steepest(objective: PolicyObjective) -> float:
+    """Return the largest alpha by which an agent shuns risk; 0 where there is none."""
+    match objective:
+        case Exponential(attitude=Attitude.AVERSE, alpha=alpha):
+            return alpha
+        case OneSwitch() | Exponentials():
+            return max((term.slope for term in objective.terms), default=0.0)
+    return 0.0
+
+
 def _finite_below(chain: Chain, objective: PolicyObjective) -> float | None:
     """Return the alpha below which averse agents find a policy finite; found by halving an interval."""
-    if not (isinstance(objective, Exponential) and objective.attitude is Attitude.AVERSE):
+    low, high = 0.0, _steepest(objective)
+    if high <= 0:
         return None
-    low, high = 0.0, objective.alpha
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         if math.isfinite(chain.exponential_mean(middle, 0.0)):
