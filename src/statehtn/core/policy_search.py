@@ -90,7 +90,11 @@ def check_that_it_has_policies(
     check_has_policies(objective)
     known = Success | Neutral | Exponential | OneSwitch | Exponentials | CallableUtility
     if not isinstance(objective, known) and type(objective) not in DISUTILITIES:
-        raise UnsupportedError(f"policies by '{objective}' are not supported")
+        raise UnsupportedError(
+            f"no policy can be found by '{objective}': nothing is known of what an objective of one's own makes of "
+            "several outcomes, each with decisions to come; a utility that is a Python function of the total cost has "
+            "policies"
+        )
     if grounding.has_scenarios:
         raise UnsupportedError(
             "costs of this problem depend on hidden facts, so that seeing a cost tells about others: there are no "

@@ -11,6 +11,7 @@ from statehtn.risk.mean_variance import MeanVariance
 from statehtn.risk.objective import Objective
 from statehtn.risk.quantile import Quantile
 from statehtn.risk.success import Success
+from statehtn.risk.success_utility import SuccessUtility
 
 PolicyObjective = Objective | Success
 
@@ -26,6 +27,11 @@ def check_has_policies(objective: PolicyObjective) -> None:
             f"no policy can be found by '{objective}': there are no policies that are best by an objective that may "
             "prefer a larger cost to a smaller one, since the best decision after one outcome then depends on what was "
             "decided after the others; averse, overrun or cvar agents shun risk, too, and have policies"
+        )
+    if isinstance(objective, SuccessUtility):
+        raise UnsupportedError(
+            f"no policy can be found by '{objective}': it values a plan that counts on one outcome of each action, and "
+            "a policy counts on none; statehtn plan finds the plan, and policies by 'success' are done most probably"
         )
 
 
