@@ -181,6 +181,10 @@ class SpendingPolicies(PolicyRun):
         """Return the outcome of the last search."""
         return self.finished(found.lower, found.upper, self.run, SpendingLaws(self.grid), found.upper < math.inf)
 
+    def _to_read(self, limits: Limits) -> Limits:
+        """Return the limits of a search for a policy that was found before, to read it; short once a run is over."""
+        return limits.with_grace(1.0, is_over=self.stopped is not None)
+
     def _out_of_reach(self, level: float, limits: Limits) -> PolicyOutcome | None:
         """Return that no amount is enough, where runs may fail for ever and too many of them do; None elsewhere."""
         if not self.may_fail_for_ever:
@@ -206,6 +210,8 @@ class SpendingPolicies(PolicyRun):
                 below = amount
             else:
                 break  # a limit, or too near to tell
+            if self.stopped is not None:
+                break
             amount = 2 * amount + 1 if enough is None else (below + enough) // 2
             if amount > MOST_LEFT:
                 break
@@ -214,7 +220,9 @@ class SpendingPolicies(PolicyRun):
             status = self.stopped or Status.GAVE_UP
             return PolicyOutcome(status, self.stopped, low, None, None, self.effort)
         stopped = self.stopped
-        outcome = self.finish(self.search(enough, limits.with_grace(1.0)))
+        outcome = self.finish(self.search(enough, self._to_read(limits)))
+        if outcome.graph is None:
+            return replace(outcome, lower=low, upper=None, status=stopped or Status.GAVE_UP, stopped=stopped)
         high = float(self.step * enough)
         if low == high:
             return replace(outcome, lower=low, upper=high, status=Status.OPTIMAL, stopped=None)
@@ -231,11 +239,15 @@ class SpendingPolicies(PolicyRun):
         step, weight = float(self.step), objective.weight
         rate = weight / (1 - objective.level)
         known: dict[int, tuple[float, float]] = {}  # by amount: bounds of V
+        searched: dict[int, _relax.PolicyStatistics] = {}
         best, best_amount = math.inf, 0
 
         def look(amount: int) -> None:
             nonlocal best, best_amount
-            found = self.search(amount, limits)
+            if self.stopped is not None:
+                known[amount] = 0.0, math.inf
+                return
+            found = searched[amount] = self.search(amount, limits)
             shift = (1 - weight) * amount * step
             known[amount] = (found.lower + shift, found.upper + shift)
             value = weight * amount * step + known[amount][1]
@@ -250,7 +262,11 @@ class SpendingPolicies(PolicyRun):
 
         look(0)
         if known[0][0] == math.inf or best == math.inf or weight == 0:
-            return self.finish(self.search(0, limits.with_grace(1.0)))
+            outcome = self.finish(searched[0])
+            if weight == 0 or known[0][0] == math.inf:
+                return outcome
+            # V falls by at most `rate`, and not below 0.
+            return replace(outcome, lower=self.values(known[0][0] * (1 - objective.level), best)[0])
         most = min(math.ceil(best / (weight * step)) if step else 0, MOST_LEFT)
         if most > 0:
             look(most)
@@ -268,8 +284,11 @@ class SpendingPolicies(PolicyRun):
                     heapq.heappush(open_intervals, (*bound(one, other), one, other))
         lower = min([least_closed, *(interval[0] for interval in open_intervals)])
         stopped = self.stopped
-        outcome = self.finish(self.search(best_amount, limits.with_grace(1.0)))
+        is_last = best_amount == next(reversed(searched))
+        outcome = self.finish(searched[best_amount] if is_last else self.search(best_amount, self._to_read(limits)))
         low_value, high_value = self.values(lower, best)
+        if outcome.graph is None:
+            return replace(outcome, lower=low_value, upper=None, status=stopped or Status.GAVE_UP, stopped=stopped)
         is_optimal = low_value is not None and best - low_value <= self.precision * max(1.0, abs(best))
         status = Status.OPTIMAL if is_optimal else Status.SOLVED
         stopped = None if is_optimal else stopped or self.stopped

@@ -47,6 +47,11 @@ class PolicyReader:
         )
 
     @cached_property
+    def _actions(self) -> list[int | None]:
+        """The action of each branch: a list that is made once, since the core's own is copied for whoever asks."""
+        return self.run.actions
+
+    @cached_property
     def graph(self) -> PolicyGraph:
         """The policy; nodes are made when they are asked for."""
         return PolicyGraph(PolicyNodes(self), self.flat)
@@ -73,7 +78,7 @@ class PolicyReader:
 
     def _decision(self, number: int, tasks: Sequence[int], facts: set[int], handle: _relax.GroundProblem) -> Decision:
         index, method = self.run.step(number)
-        flat, actions = self.flat, self.run.actions
+        flat, actions = self.flat, self._actions
         branches = []
         for at in flat.branches(number):
             added, deleted = self._changes(actions[at], facts)
