@@ -8,6 +8,7 @@ from fractions import Fraction
 from hypothesis import strategies as st
 
 import statehtn._relax as _relax
+from tests.strategies import pick
 
 Law = dict[int, Fraction]
 FREE: Law = {0: Fraction(1)}
@@ -61,7 +62,7 @@ def add(table: _relax.LawTable, law: Law) -> int:
 def laws(draw: st.DrawFn, most: int = 12, outcomes: int = 4) -> Law:
     """A law of few outcomes; certain ones are the simplest."""
     costs = draw(st.lists(st.integers(0, most), min_size=1, max_size=outcomes, unique=True))
-    weights = [draw(st.sampled_from(WEIGHTS)) for _ in costs]
+    weights = [pick(draw, WEIGHTS) for _ in costs]
     return {cost: Fraction(weight, sum(weights)) for cost, weight in zip(costs, weights, strict=True)}
 
 

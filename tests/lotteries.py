@@ -28,7 +28,7 @@ from statehtn.model import (
     TaskNetwork,
     TypeHierarchy,
 )
-from tests.strategies import ORDERS, Draw, chance, ordering
+from tests.strategies import ORDERS, Draw, chance, ordering, pick
 
 Lottery = tuple[tuple[str, str], ...]
 """Probabilities and costs; the rest costs nothing."""
@@ -63,30 +63,29 @@ FACTS = ("p0", "p1", "p2")
 def lottery_problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     """A problem; `orders` are the kinds of task networks in it."""
     lotteries = draw(st.lists(st.sampled_from(LOTTERIES), min_size=5, max_size=7, unique=True))
-    actions = {f"a{i}": draw(action(f"a{i}", branches)) for i, branches in enumerate(lotteries)}
-    tasks = {f"t{i}": Signature(f"t{i}", ()) for i in range(draw(st.sampled_from((2, 2, 3, 1))))}
+    actions = {f"a{i}": action(draw, f"a{i}", branches) for i, branches in enumerate(lotteries)}
+    tasks = {f"t{i}": Signature(f"t{i}", ()) for i in range(pick(draw, (2, 2, 3, 1)))}
     methods = {}
     for task in tasks:
-        firsts = draw(st.permutations(list(actions)))[: draw(st.sampled_from((3, 3, 2, 4)))]
+        firsts = draw(st.permutations(list(actions)))[: pick(draw, (3, 3, 2, 4))]
         for i, first in enumerate(firsts):
             name = f"{task}-m{i}"
-            precondition = draw(literal()) if i > 0 and chance(draw, 0.1) else TRUE
-            network = draw(subtasks(task, first, list(actions), list(tasks), orders, i > 0))
+            precondition = literal(draw) if i > 0 and chance(draw, 0.1) else TRUE
+            network = subtasks(draw, task, first, list(actions), list(tasks), orders, i > 0)
             methods[name] = Method(name, (), task, (), network, precondition)
     chosen = [*tasks, *draw(st.lists(st.sampled_from(list(tasks)), max_size=3 - len(tasks)))]
     initial = frozenset((fact,) for fact in FACTS if chance(draw, 0.5))
     predicates = {fact: Signature(fact, ()) for fact in FACTS}
     domain = Domain("lotteries", TypeHierarchy({}), {}, predicates, {}, tasks, actions, methods)
-    return Problem("p", domain, {}, (), network_of(chosen, draw(ordering(len(chosen), orders))), initial, {}, TRUE)
+    return Problem("p", domain, {}, (), network_of(chosen, ordering(draw, len(chosen), orders)), initial, {}, TRUE)
 
 
-@st.composite
 def action(draw: Draw, name: str, branches: Lottery) -> Action:
     costs = [CostBlock(complete(branches))]
     if chance(draw, 0.25):
-        costs.append(CostBlock(complete(draw(st.sampled_from(SMALL))), draw(literal())))
-    effects = [Effect(Atom(draw(st.sampled_from(FACTS)), ()), draw(st.booleans()), TRUE, ())]
-    precondition = draw(literal()) if chance(draw, 0.1) else TRUE
+        costs.append(CostBlock(complete(pick(draw, SMALL)), literal(draw)))
+    effects = [Effect(Atom(pick(draw, FACTS), ()), draw(st.booleans()), TRUE, ())]
+    precondition = literal(draw) if chance(draw, 0.1) else TRUE
     return Action(name, (), precondition, tuple(effects) if chance(draw, 0.6) else (), tuple(costs))
 
 
@@ -97,13 +96,11 @@ def complete(lottery: Lottery) -> tuple[tuple[Number, Number], ...]:
     return tuple((Number(p), Number(cost)) for p, cost in branches)
 
 
-@st.composite
 def literal(draw: Draw) -> Formula:
-    atom = Atom(draw(st.sampled_from(FACTS)), ())
+    atom = Atom(pick(draw, FACTS), ())
     return Not(atom) if draw(st.booleans()) else atom
 
 
-@st.composite
 def subtasks(
     draw: Draw, task: str, first: str, actions: list[str], tasks: list[str], orders: tuple[str, ...], recurs: bool
 ) -> TaskNetwork:
@@ -113,10 +110,10 @@ def subtasks(
     if recurs and chance(draw, 0.06):
         chosen.append(task)
     elif later and chance(draw, 0.3):
-        chosen.append(draw(st.sampled_from(later)))
+        chosen.append(pick(draw, later))
     elif chance(draw, 0.3):
-        chosen.append(draw(st.sampled_from(actions)))
-    return network_of(chosen, draw(ordering(len(chosen), orders)))
+        chosen.append(pick(draw, actions))
+    return network_of(chosen, ordering(draw, len(chosen), orders))
 
 
 def network_of(names: list[str], order: tuple[tuple[int, int], ...]) -> TaskNetwork:
@@ -140,7 +137,7 @@ def texts(*parts: str | tuple[str, ...]) -> st.SearchStrategy[str]:
 def piecewise(draw: Draw) -> str:
     """A utility of three to five points, convex, concave or neither."""
     costs = sorted(draw(st.sets(st.sampled_from(BUDGETS), min_size=3, max_size=5)), key=float)
-    falls = [draw(st.sampled_from((0, 1, 2, 3, 8))) for _ in costs]
+    falls = [pick(draw, (0, 1, 2, 3, 8)) for _ in costs]
     if draw(st.booleans()):
         falls.sort()
     worth = [Fraction(10)]
@@ -153,8 +150,8 @@ def piecewise(draw: Draw) -> str:
 def exponentials(draw: Draw) -> str:
     """Some linear part or none, and one or two exponentials of either sign."""
     alphas = draw(st.lists(st.sampled_from(("0.1", "0.5", "1", "-0.1", "-0.5")), min_size=1, max_size=2, unique=True))
-    linear = draw(st.sampled_from((" linear=0", " linear=1", " linear=0.2")))
-    return "exponentials" + linear + "".join(f" {a}:{draw(st.sampled_from(('1', '0.1', '0.01')))}" for a in alphas)
+    linear = pick(draw, (" linear=0", " linear=1", " linear=0.2"))
+    return "exponentials" + linear + "".join(f" {a}:{pick(draw, ('1', '0.1', '0.01'))}" for a in alphas)
 
 
 ADDITIVE = st.one_of(

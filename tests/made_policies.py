@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from statehtn.model import CostDistribution, Step
 from statehtn.model.policy_graph import Branch, Decision, End, PolicyGraph, PolicyNode
+from tests.strategies import between, pick
 
 CARRY, GIVE = Step("carry", ("cup",)), Step("give", ("cup",))
 TRY = Step("try", ("cup",))
@@ -79,10 +80,10 @@ def ferry_or_bridge() -> PolicyGraph:
 @st.composite
 def graphs(draw: st.DrawFn, most_nodes: int = 6) -> PolicyGraph:
     """Random policies with loops, loops that cost nothing, failing, and runs without an end."""
-    count = draw(st.integers(1, most_nodes))
+    count = between(draw, 1, most_nodes)
     nodes: list[PolicyNode] = []
     for index in range(count):
-        end = draw(st.sampled_from([None, None, End.DONE, End.FAILED, End.GIVEN_UP]))
+        end = pick(draw, [None, None, End.DONE, End.FAILED, End.GIVEN_UP])
         if index == count - 1 and end is None:
             end = End.DONE
         decision = None
@@ -97,7 +98,7 @@ def graphs(draw: st.DrawFn, most_nodes: int = 6) -> PolicyGraph:
 def _branch(draw: st.DrawFn, probability: float, count: int, place: int) -> Branch:
     costs = draw(st.lists(st.sampled_from([0, 0, 1, 2]), min_size=1, max_size=2, unique=True))
     law = CostDistribution.of([(1 / len(costs), cost) for cost in costs])
-    return Branch(probability, law, draw(st.integers(0, count - 1)), frozenset({("came", str(place))}))
+    return Branch(probability, law, between(draw, 0, count - 1), frozenset({("came", str(place))}))
 
 
 def _reachable(nodes: Sequence[PolicyNode]) -> list[PolicyNode]:

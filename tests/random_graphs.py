@@ -7,7 +7,7 @@ from fractions import Fraction
 from hypothesis import strategies as st
 
 from tests.explicit_graph import Branch, ExplicitGraph
-from tests.strategies import Draw
+from tests.strategies import Draw, between, pick
 
 PROBABILITIES = tuple(
     tuple(map(Fraction, several.split()))
@@ -24,16 +24,16 @@ FAILURE_COSTS = tuple(map(Fraction, ("0", "1", "2.5", "6", "20")))
 def decision_graphs(draw: Draw, most_nodes: int = 6, forward: bool = False) -> ExplicitGraph:
     """A graph; `forward` means one without circles."""
     graph = ExplicitGraph()
-    count = draw(st.integers(1, most_nodes))
+    count = between(draw, 1, most_nodes)
     for number in range(count):
         graph.add(f"n{number}")
     done = graph.add("done", True)
     for number in range(count):
         successors = [*range(number + 1, count), done, done] if forward else [*range(count), done, done]
-        for _ in range(draw(st.sampled_from((1, 2, 2, 3, 0)))):
+        for _ in range(pick(draw, (1, 2, 2, 3, 0))):
             branches: dict[tuple[Fraction, int], Fraction] = {}
-            for probability in draw(st.sampled_from(PROBABILITIES)):
-                key = (draw(st.sampled_from(COSTS)), draw(st.sampled_from(successors)))
+            for probability in pick(draw, PROBABILITIES):
+                key = (pick(draw, COSTS), pick(draw, successors))
                 branches[key] = branches.get(key, Fraction(0)) + probability
             graph.decisions[number].append(tuple(Branch(p, cost, to) for (cost, to), p in branches.items()))
     return graph

@@ -27,7 +27,7 @@ from statehtn.model import (
     TypeHierarchy,
 )
 from statehtn.model.outcome import Outcome, OutcomeBlock
-from tests.strategies import ORDERS, TENTHS, Draw, Names, branches, chance, effect, ordering, problems
+from tests.strategies import ORDERS, TENTHS, Draw, Names, between, branches, chance, effect, ordering, pick, problems
 
 ONE = Number(Fraction(1))
 FACTS = ("p0", "p1", "p2", "p3")
@@ -46,23 +46,22 @@ def wide_problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     domain = problem.domain
     kinds = tuple(domain.types.parents)
     names = Names(kinds, dict(domain.predicates), dict(problem.objects))
-    actions = {name: draw(with_outcomes(names, action)) for name, action in domain.actions.items()}
+    actions = {name: with_outcomes(draw, names, action) for name, action in domain.actions.items()}
     return replace(problem, domain=replace(domain, actions=actions))
 
 
-@st.composite
 def with_outcomes(draw: Draw, names: Names, action: Action) -> Action:
     """The action with no, one or two blocks of outcomes."""
     blocks = []
-    for _ in range(draw(st.sampled_from((0, 1, 1, 2)))):
-        bound = (Parameter("?o", (draw(st.sampled_from(names.types)),)),) if chance(draw, 0.1) else ()
+    for _ in range(pick(draw, (0, 1, 1, 2))):
+        bound = (Parameter("?o", (pick(draw, names.types),)),) if chance(draw, 0.1) else ()
         scope = action.parameters + bound
         condition = names.condition(draw, scope) if chance(draw, 0.25) else TRUE
         outcomes = []
-        for number, probability in enumerate(draw(st.sampled_from(CHANCES))):
+        for number, probability in enumerate(pick(draw, CHANCES)):
             least = 1 if number == 0 else 0
-            effects = tuple(draw(effect(names, scope)) for _ in range(draw(st.integers(least, 2))))
-            costs = (CostBlock(draw(branches(scope))),) if chance(draw, 0.4) else ()
+            effects = tuple(effect(draw, names, scope) for _ in range(between(draw, least, 2)))
+            costs = (CostBlock(branches(draw, scope)),) if chance(draw, 0.4) else ()
             outcomes.append(Outcome(Number(probability), effects, costs))
         blocks.append(OutcomeBlock(tuple(outcomes), condition, bound))
     return replace(action, outcomes=tuple(blocks))
@@ -71,31 +70,31 @@ def with_outcomes(draw: Draw, names: Names, action: Action) -> Action:
 @st.composite
 def chance_problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     """A problem without objects: actions that may fail, tasks that try again, wait for each other, or lead nowhere."""
-    wanted = {f"t{i}": draw(literal()) for i in range(draw(st.integers(1, 3)))}
+    wanted = {f"t{i}": literal(draw) for i in range(between(draw, 1, 3))}
     facts = [atom_of(formula) for formula in wanted.values()]
-    actions = {f"a{i}": draw(chance_action(f"a{i}", [one, one, *facts])) for i, one in enumerate(facts)}
-    actions |= {f"b{i}": draw(chance_action(f"b{i}", facts)) for i in range(draw(st.sampled_from((1, 1, 2))))}
+    actions = {f"a{i}": chance_action(draw, f"a{i}", [one, one, *facts]) for i, one in enumerate(facts)}
+    actions |= {f"b{i}": chance_action(draw, f"b{i}", facts) for i in range(pick(draw, (1, 1, 2)))}
     tasks = {task: Signature(task) for task in wanted}
     methods: dict[str, Method] = {}
     for task, formula in wanted.items():
         if not chance(draw, 0.2):  # what it is for is true already
             methods[f"{task}-done"] = Method(f"{task}-done", (), task, (), TaskNetwork(), formula)
-        for number in range(draw(st.sampled_from((1, 2, 2, 3)))):
+        for number in range(pick(draw, (1, 2, 2, 3))):
             name = f"{task}-m{number}"
             if number == 0 and not chance(draw, 0.3):  # what may make it true, until it is
                 methods[name] = Method(name, (), task, (), network_of([task.replace("t", "a"), task], ((0, 1),)))
                 continue
-            network = draw(chance_network(task, list(actions), list(tasks), orders))
-            condition = draw(literal()) if chance(draw, 0.25) else TRUE
+            network = chance_network(draw, task, list(actions), list(tasks), orders)
+            condition = literal(draw) if chance(draw, 0.25) else TRUE
             methods[name] = Method(name, (), task, (), network, condition)
     first = ["t0", *draw(st.lists(st.sampled_from([*tasks, *actions]), max_size=2 if "total" in orders else 1))]
-    network = network_of(first, draw(ordering(len(first), orders)))
+    network = network_of(first, ordering(draw, len(first), orders))
     initial = {(fact,) for fact in FACTS if chance(draw, 0.4)}
     for effect_wanted in facts:
         fact = (effect_wanted.atom.predicate,)
         if not chance(draw, 0.15):
             initial = initial - {fact} if effect_wanted.positive else initial | {fact}
-    goal = draw(literal()) if chance(draw, 0.1) else TRUE
+    goal = literal(draw) if chance(draw, 0.1) else TRUE
     predicates = {fact: Signature(fact) for fact in FACTS}
     domain = Domain("chances", TypeHierarchy({}), {}, predicates, {}, tasks, actions, methods)
     return Problem("p", domain, network=network, initial_state=frozenset(initial), goal=goal)
@@ -109,72 +108,64 @@ def atom_of(formula: Formula) -> Effect:
     return Effect(atom, not isinstance(first, Not))
 
 
-@st.composite
 def chance_action(draw: Draw, name: str, wanted: list[Effect]) -> Action:
-    precondition = draw(literal()) if chance(draw, 0.15) else TRUE
-    costs = [CostBlock(draw(cost_branches()))] if not chance(draw, 0.1) else []
+    precondition = literal(draw) if chance(draw, 0.15) else TRUE
+    costs = [CostBlock(cost_branches(draw))] if not chance(draw, 0.1) else []
     if chance(draw, 0.2):
-        costs.append(CostBlock(draw(cost_branches()), draw(literal())))
-    blocks = [draw(outcome_block(wanted))] if not chance(draw, 0.2) else []
+        costs.append(CostBlock(cost_branches(draw), literal(draw)))
+    blocks = [outcome_block(draw, wanted)] if not chance(draw, 0.2) else []
     if chance(draw, 0.1):
-        blocks.append(draw(outcome_block(wanted)))
-    effects = (draw(change(wanted)),) if chance(draw, 0.4) else ()
+        blocks.append(outcome_block(draw, wanted))
+    effects = (change(draw, wanted),) if chance(draw, 0.4) else ()
     return Action(name, (), precondition, effects, tuple(costs), tuple(blocks))
 
 
-@st.composite
 def outcome_block(draw: Draw, wanted: list[Effect]) -> OutcomeBlock:
     outcomes = []
-    for number, probability in enumerate(draw(st.sampled_from(CHANCES))):
-        effects = tuple(
-            draw(change(wanted)) for _ in range(draw(st.sampled_from((0, 1, 1, 2) if number else (1, 1, 2))))
-        )
-        costs = (CostBlock(draw(cost_branches())),) if chance(draw, 0.3) else ()
+    for number, probability in enumerate(pick(draw, CHANCES)):
+        effects = tuple(change(draw, wanted) for _ in range(pick(draw, (0, 1, 1, 2) if number else (1, 1, 2))))
+        costs = (CostBlock(cost_branches(draw)),) if chance(draw, 0.3) else ()
         outcomes.append(Outcome(Number(probability), effects, costs))
-    return OutcomeBlock(tuple(outcomes), draw(literal()) if chance(draw, 0.15) else TRUE)
+    return OutcomeBlock(tuple(outcomes), literal(draw) if chance(draw, 0.15) else TRUE)
 
 
-@st.composite
 def cost_branches(draw: Draw) -> tuple[tuple[Number, Number], ...]:
-    first, second = (Number(draw(st.sampled_from(SMALL_COSTS))) for _ in range(2))
+    first, second = (Number(pick(draw, SMALL_COSTS)) for _ in range(2))
     if chance(draw, 0.6):
         return ((ONE, first),)
-    p = draw(st.sampled_from(TENTHS))
+    p = pick(draw, TENTHS)
     return ((Number(p), first), (Number(1 - p), second))
 
 
-@st.composite
 def change(draw: Draw, wanted: list[Effect]) -> Effect:
     """An effect that some task is for, or any."""
     if draw(st.booleans()):
-        return draw(st.sampled_from(wanted))
-    condition = draw(literal()) if chance(draw, 0.1) else TRUE
-    return Effect(Atom(draw(st.sampled_from(FACTS))), draw(st.booleans()), condition)
+        return pick(draw, wanted)
+    condition = literal(draw) if chance(draw, 0.1) else TRUE
+    return Effect(Atom(pick(draw, FACTS)), draw(st.booleans()), condition)
 
 
-@st.composite
 def literal(draw: Draw) -> Formula:
-    atom = Atom(draw(st.sampled_from(FACTS)))
+    atom = Atom(pick(draw, FACTS))
     one = Not(atom) if draw(st.booleans()) else atom
-    return And((one, draw(literal()))) if chance(draw, 0.1) else one
+    return And((one, literal(draw))) if chance(draw, 0.1) else one
 
 
-@st.composite
 def chance_network(draw: Draw, task: str, actions: list[str], tasks: list[str], orders: tuple[str, ...]) -> TaskNetwork:
     """One task, or two; trying again comes after an action, or is free, in a network of its own."""
     later = [other for other in tasks if other > task]
-    match draw(st.sampled_from(("again", "again", "again", "two", "two", "later", "action", "free"))):
+    match pick(draw, ("again", "again", "again", "two", "two", "later", "action", "free")):
         case "again":
             own = task.replace("t", "a")  # what may make true what the task is for
-            return network_of([draw(st.sampled_from([own, own, *actions])), task], ((0, 1),))
+            return network_of([pick(draw, [own, own, *actions]), task], ((0, 1),))
         case "free":
-            return network_of([draw(st.sampled_from([other for other in tasks if other <= task]))], ())
+            return network_of([pick(draw, [other for other in tasks if other <= task])], ())
         case "two":
-            chosen = [draw(st.sampled_from(actions)), draw(st.sampled_from([*later, *actions]))]
-            return network_of(chosen, draw(ordering(2, orders)))
+            chosen = [pick(draw, actions), pick(draw, [*later, *actions])]
+            return network_of(chosen, ordering(draw, 2, orders))
         case "later" if later:
-            return network_of([draw(st.sampled_from(later))], ())
-    return network_of([draw(st.sampled_from(actions))], ())
+            return network_of([pick(draw, later)], ())
+    return network_of([pick(draw, actions)], ())
 
 
 def network_of(names: list[str], order: tuple[tuple[int, int], ...]) -> TaskNetwork:

@@ -31,7 +31,7 @@ from statehtn.model import Signature as Predicate
 from statehtn.model.chance import Chance, Outcome
 from tests.lotteries import lottery_problems
 from tests.naive_semantics import Semantics
-from tests.strategies import ORDERS, Draw, branches, chance, ground, ordering, problems
+from tests.strategies import ORDERS, Draw, between, branches, chance, ground, ordering, pick, problems
 
 HIDDEN = {"h0": Predicate("h0"), "h1": Predicate("h1", (Parameter("?x0", ("thing",)),)), "h2": Predicate("h2")}
 ONE = Number(Fraction(1))
@@ -48,12 +48,12 @@ def correlated_problems(draw: Draw, orders: tuple[str, ...] = ORDERS, most_scena
     facts = [(p.name, *args) for p in HIDDEN.values() for args in ground(p, dict(problem.objects), parents)]
     chances: list[Chance] = []
     count = 1
-    for _ in range(draw(st.sampled_from((1, 1, 2, 3)))):
-        drawn = draw(chances_of(facts))
+    for _ in range(pick(draw, (1, 1, 2, 3))):
+        drawn = chances_of(draw, facts)
         if count * len(drawn.outcomes) <= most_scenarios:
             chances.append(drawn)
             count *= len(drawn.outcomes)
-    actions = {name: draw(with_hidden_costs(action)) for name, action in domain.actions.items()}
+    actions = {name: with_hidden_costs(draw, action) for name, action in domain.actions.items()}
     predicates = {**domain.predicates, **HIDDEN}
     return replace(problem, domain=replace(domain, predicates=predicates, actions=actions), chances=tuple(chances))
 
@@ -71,12 +71,12 @@ def correlated_lotteries(
     facts = [("h0",), ("h2",), ("h3",), ("h4",)]
     chances: list[Chance] = []
     count = 1
-    for _ in range(draw(st.sampled_from((1, 1, 2, 3)))):
-        drawn = draw(chances_of(facts))
+    for _ in range(pick(draw, (1, 1, 2, 3))):
+        drawn = chances_of(draw, facts)
         if count * len(drawn.outcomes) <= most_scenarios:
             chances.append(drawn)
             count *= len(drawn.outcomes)
-    actions = {name: draw(hidden_lottery(action, certain)) for name, action in problem.domain.actions.items()}
+    actions = {name: hidden_lottery(draw, action, certain) for name, action in problem.domain.actions.items()}
     predicates = {**problem.domain.predicates, **{name: Predicate(name) for (name,) in facts}}
     domain = replace(problem.domain, predicates=predicates, actions=actions)
     return replace(problem, domain=domain, chances=tuple(chances))
@@ -89,51 +89,49 @@ def hedging_problems(draw: Draw, orders: tuple[str, ...] = ORDERS, certain: bool
     Args:
         certain: whether nothing is uncertain once the scenario is known.
     """
-    names = [f"h{number}" for number in range(draw(st.integers(2, 4)))]
-    weights = [draw(st.integers(1, 4)) for _ in names]
+    names = [f"h{number}" for number in range(between(draw, 2, 4))]
+    weights = [between(draw, 1, 4) for _ in names]
     outcomes = zip(names, weights, strict=True)
     drawn = Chance(tuple(Outcome(Fraction(weight, sum(weights)), frozenset({(name,)})) for name, weight in outcomes))
     actions: dict[str, Action] = {}
     methods: dict[str, Method] = {}
-    tasks = {f"t{i}": Predicate(f"t{i}") for i in range(draw(st.integers(2, 3)))}
+    tasks = {f"t{i}": Predicate(f"t{i}") for i in range(between(draw, 2, 3))}
     for task in tasks:
-        for number in range(draw(st.integers(2, 3))):
+        for number in range(between(draw, 2, 3)):
             name = f"{task}-a{number}"
-            costs = [CostBlock(draw(hedging_cost(certain)), Atom(hidden)) for hidden in names]
+            costs = [CostBlock(hedging_cost(draw, certain), Atom(hidden)) for hidden in names]
             actions[name] = Action(name, costs=tuple(costs))
             network = TaskNetwork((Subtask("s0", name),))
             methods[f"{name}-m"] = Method(f"{name}-m", (), task, (), network)
     network = TaskNetwork(
-        tuple(Subtask(f"s{i}", name) for i, name in enumerate(tasks)), draw(ordering(len(tasks), orders))
+        tuple(Subtask(f"s{i}", name) for i, name in enumerate(tasks)), ordering(draw, len(tasks), orders)
     )
     predicates = {name: Predicate(name) for name in names}
     domain = Domain("hedges", TypeHierarchy({}), {}, predicates, {}, tasks, actions, methods)
     return Problem("p", domain, network=network, chances=(drawn,))
 
 
-@st.composite
 def hedging_cost(draw: Draw, certain: bool) -> tuple[tuple[Expression, Expression], ...]:
-    first, second = (Number(Fraction(draw(st.integers(0, 9)))) for _ in range(2))
+    first, second = (Number(Fraction(between(draw, 0, 9))) for _ in range(2))
     if certain or draw(st.booleans()):
         return ((ONE, first),)
     return ((Number(Fraction(1, 4)), first), (Number(Fraction(3, 4)), second))
 
 
-@st.composite
 def hidden_lottery(draw: Draw, action: Action, certain: bool) -> Action:
     """The action with costs that depend on one hidden fact, or two, instead of chance, or in addition."""
     first, *others = action.costs
-    hidden = Atom(draw(st.sampled_from(("h0", "h2", "h3", "h4"))))
+    hidden = Atom(pick(draw, ("h0", "h2", "h3", "h4")))
     costs = list(others)
     if certain or chance(draw, 0.5):
         low, high = draw(st.tuples(st.sampled_from(LEAST), st.sampled_from(LEAST)))
         costs.append(CostBlock(((ONE, Number(low)),), hidden))
-        costs.append(CostBlock(((ONE, Number(high + draw(st.sampled_from(LEAST)))),), Not(hidden)))
+        costs.append(CostBlock(((ONE, Number(high + pick(draw, LEAST))),), Not(hidden)))
     else:
         costs.append(first)
     if chance(draw, 0.5):
-        other = Atom(draw(st.sampled_from(("h0", "h2", "h3", "h4"))))
-        more = ((ONE, Number(draw(st.sampled_from(LEAST)))),) if certain else draw(branches(()))
+        other = Atom(pick(draw, ("h0", "h2", "h3", "h4")))
+        more = ((ONE, Number(pick(draw, LEAST))),) if certain else branches(draw, ())
         costs.append(CostBlock(more, other))
     if certain:
         costs = [replace(block, branches=block.branches[:1]) for block in costs]
@@ -141,34 +139,31 @@ def hidden_lottery(draw: Draw, action: Action, certain: bool) -> Action:
     return replace(action, costs=tuple(costs))
 
 
-@st.composite
 def chances_of(draw: Draw, facts: list[tuple[str, ...]]) -> Chance:
     """One thing that is decided by chance, with two or three outcomes."""
     outcomes = draw(st.sets(st.frozensets(st.sampled_from(facts), max_size=3), min_size=2, max_size=3))
     first, *rest = sorted(outcomes, key=sorted)
-    weight = draw(st.sampled_from(EIGHTHS)) / len(rest)
+    weight = pick(draw, EIGHTHS) / len(rest)
     found = [Outcome(1 - weight * len(rest), first), *(Outcome(weight, outcome) for outcome in rest)]
     return Chance(tuple(found))
 
 
-@st.composite
 def with_hidden_costs(draw: Draw, action: Action) -> Action:
     """The action with hidden facts in the conditions of some of its costs, and with costs of hidden facts alone."""
     costs = []
     for block in action.costs:
         hidden = block.condition != TRUE and chance(draw, 0.4)
-        condition = And((block.condition, draw(hidden_literal(action)))) if hidden else block.condition
+        condition = And((block.condition, hidden_literal(draw, action))) if hidden else block.condition
         costs.append(replace(block, condition=condition))
-    more = draw(st.sampled_from((0, 1, 1, 2)))
-    costs += [CostBlock(draw(branches(action.parameters)), draw(hidden_literal(action))) for _ in range(more)]
+    more = pick(draw, (0, 1, 1, 2))
+    costs += [CostBlock(branches(draw, action.parameters), hidden_literal(draw, action)) for _ in range(more)]
     return replace(action, costs=tuple(costs))
 
 
-@st.composite
 def hidden_literal(draw: Draw, action: Action) -> Formula:
     variables = [parameter.name for parameter in action.parameters]
     atoms = [Atom("h0"), Atom("h2"), *(Atom("h1", (name,)) for name in variables)]
-    atom = draw(st.sampled_from(atoms))
+    atom = pick(draw, atoms)
     return Not(atom) if chance(draw, 0.3) else atom
 
 

@@ -10,6 +10,7 @@ from statehtn import Problem, Status, read_hddl_text, validate
 from statehtn.risk import utility_for
 from tests.brute_force import optimal_risk_cost
 from tests.differential.oracles import close_to, must_have_ended, solve
+from tests.strategies import between, pick
 
 LITERALS = ["(p)", "(not (p))", "(q)", "(not (q))"]
 EXAMPLES = 400  # each takes some milliseconds
@@ -25,22 +26,22 @@ def problems_of(
     """Actions, and two or three methods of each task; what a method and the problem consist of is drawn."""
     actions = []
     for cost, action in enumerate(NAMES):
-        effects = [draw(st.sampled_from(LITERALS)), f"(increase (total-cost) {cost})"]
-        if draw(st.sampled_from([False, False, True])):
-            effects.append(f"(when {draw(st.sampled_from(LITERALS))} {draw(st.sampled_from(LITERALS))})")
-        if draw(st.sampled_from([False, False, True])):
-            effects.append(f"(when {draw(st.sampled_from(LITERALS))} (increase (total-cost) 5))")
+        effects = [pick(draw, LITERALS), f"(increase (total-cost) {cost})"]
+        if pick(draw, [False, False, True]):
+            effects.append(f"(when {pick(draw, LITERALS)} {pick(draw, LITERALS)})")
+        if pick(draw, [False, False, True]):
+            effects.append(f"(when {pick(draw, LITERALS)} (increase (total-cost) 5))")
         needed = f"(and {draw(seldom)})"
         actions.append(f"(:action {action} :parameters () :precondition {needed} :effect (and {' '.join(effects)}))")
     ways = [
         f"(:method {task}-{index} :parameters () :task ({task}) :ordered-subtasks (and {draw(subtasks)}))"
         for task, subtasks in methods.items()
-        for index in range(draw(st.integers(2, 3)))
+        for index in range(between(draw, 2, 3))
     ]
     tasks = " ".join(f"(:task {task} :parameters ())" for task in methods)
     domain = f"""(define (domain few) (:predicates (p) (q)) (:functions (total-cost)) {tasks}
         {" ".join(ways)} {" ".join(actions)})"""
-    initial = draw(st.sampled_from(["", "(p)", "(q)", "(p) (q)"]))
+    initial = pick(draw, ["", "(p)", "(q)", "(p) (q)"])
     goal = f"(and {draw(seldom)} {draw(seldom)})"
     return read_hddl_text(
         domain, f"(define (problem p) (:domain few) (:htn {draw(network)}) (:init {initial}) (:goal {goal}))"

@@ -19,6 +19,7 @@ from tests.explicit_policies import best_policy
 from tests.grounded_graph import grounded_graph
 from tests.random_outcomes import chance_problems
 from tests.shares import share_of_examples
+from tests.strategies import between, pick
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*there is no plan")
 
@@ -36,42 +37,42 @@ def few_actions(draw: st.DrawFn) -> Problem:
     """Actions over two facts, some with outcomes, and choices between them, two or three of these in no order."""
 
     def effect(often: list[str]) -> str:
-        literal = draw(st.sampled_from([*LITERALS, *often]))
-        cost = draw(st.sampled_from(["", "", "(increase (total-cost) 1)", "(increase (total-cost) 3)"]))
+        literal = pick(draw, [*LITERALS, *often])
+        cost = pick(draw, ["", "", "(increase (total-cost) 1)", "(increase (total-cost) 3)"])
         return f"(and {literal} {cost})"
 
     actions = []
     for number, name in enumerate(NAMES):
-        effects = [draw(st.sampled_from(["", *LITERALS]))]
-        match draw(st.sampled_from(["certain", "uncertain cost", "outcomes", "outcomes"])):
+        effects = [pick(draw, ["", *LITERALS])]
+        match pick(draw, ["certain", "uncertain cost", "outcomes", "outcomes"]):
             case "certain":
                 effects.append(f"(increase (total-cost) {number})")
             case "uncertain cost":
                 effects.append("(probabilistic 0.5 (increase (total-cost) 1) 0.5 (increase (total-cost) 4))")
             case _:
                 effects.append(f"(probabilistic 0.5 {effect([])} 0.5 {effect(['', ''])})")
-                effects.append(f"(increase (total-cost) {draw(st.sampled_from([0, 1, 2]))})")
-        if draw(st.sampled_from([False, False, False, True])):
-            effects.append(f"(when {draw(st.sampled_from(LITERALS))} (increase (total-cost) 2))")
-        needed = draw(st.sampled_from(["", "", *LITERALS]))
+                effects.append(f"(increase (total-cost) {pick(draw, [0, 1, 2])})")
+        if pick(draw, [False, False, False, True]):
+            effects.append(f"(when {pick(draw, LITERALS)} (increase (total-cost) 2))")
+        needed = pick(draw, ["", "", *LITERALS])
         actions.append(
             f"(:action {name} :parameters () :precondition (and {needed}) :effect (and {' '.join(effects)}))"
         )
     names = st.sampled_from(NAMES)
     methods = []
     for task in ("t", "u"):
-        for number in range(draw(st.integers(1, 3))):
+        for number in range(between(draw, 1, 3)):
             subtasks = " ".join(f"({name})" for name in draw(st.lists(names, min_size=1, max_size=2)))
-            order = draw(st.sampled_from([":subtasks", ":ordered-subtasks"]))
+            order = pick(draw, [":subtasks", ":ordered-subtasks"])
             methods.append(
                 f"(:method {task}{number} :parameters () :task ({task}) "
-                f":precondition (and {draw(st.sampled_from(['', '', '', *LITERALS]))}) {order} (and {subtasks}))"
+                f":precondition (and {pick(draw, ['', '', '', *LITERALS])}) {order} (and {subtasks}))"
             )
     first = draw(st.lists(st.sampled_from([*NAMES, "t", "u", "t", "u"]), min_size=2, max_size=3))
     network = " ".join(f"(s{number} ({task}))" for number, task in enumerate(first))
-    order = draw(st.sampled_from(["", "", "(< s0 s1)"]))
-    goal = draw(st.sampled_from(["", "", "(p)", "(q)"]))
-    initial = draw(st.sampled_from(["", "(p)", "(q)", "(p) (q)"]))
+    order = pick(draw, ["", "", "(< s0 s1)"])
+    goal = pick(draw, ["", "", "(p)", "(q)"])
+    initial = pick(draw, ["", "(p)", "(q)", "(p) (q)"])
     return read_hddl_text(
         f"""(define (domain few) (:predicates (p) (q)) (:functions (total-cost))
         (:task t :parameters ()) (:task u :parameters ()) {" ".join(methods)} {" ".join(actions)})""",

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import statehtn._relax as _relax
 from tests.policies_in_fractions import RECURSIONS, Agent, Graph, best, core_nodes, evaluate
+from tests.strategies import between, pick
 
 AGENTS = [
     Agent("neutral"),
@@ -28,14 +29,14 @@ LAWS = [(Fraction(1),), (Fraction(1, 2),) * 2, (Fraction(1, 5), Fraction(4, 5)),
 @st.composite
 def graphs(draw: st.DrawFn) -> Graph:
     """Graphs of up to five nodes, with loops that cost nothing, dead ends and several ways to be done."""
-    size = draw(st.integers(1, 5))
+    size = between(draw, 1, 5)
     done = tuple(draw(st.booleans()) if node else False for node in range(size))
     decisions = []
     for node in range(size):
         choices = []
-        for _ in range(0 if done[node] else draw(st.integers(0, 2 if size > 3 else 3))):
-            law = draw(st.sampled_from(LAWS))
-            choices.append(tuple((draw(st.integers(0, size - 1)), p, draw(st.sampled_from([0, 0, 1, 3]))) for p in law))
+        for _ in range(0 if done[node] else between(draw, 0, 2 if size > 3 else 3)):
+            law = pick(draw, LAWS)
+            choices.append(tuple((between(draw, 0, size - 1), p, pick(draw, [0, 0, 1, 3])) for p in law))
         decisions.append(tuple(choices))
     return Graph(done, tuple(decisions))
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from statehtn import plan
 from statehtn.hddl.reader import read_hddl_text
 from tests.naive_semantics import Semantics
-from tests.strategies import Draw
+from tests.strategies import Draw, pick
 
 TYPES = ("big", "small", "none")
 OBJECTS = {"big": ("a", "b", "c"), "small": ("s",), "none": ()}
@@ -31,7 +31,7 @@ def conditions(draw: Draw, scope: tuple[str, ...] = (), depth: int = 4) -> str:
         kinds += ["exists", "forall"]
     if depth > 0:
         kinds += ["and", "or", "not", "exists", "forall"]
-    kind = draw(st.sampled_from(kinds))
+    kind = pick(draw, kinds)
     deeper = conditions(scope, depth - 1)
     if kind in ("and", "or"):
         return f"({kind} {' '.join(draw(st.lists(deeper, min_size=2, max_size=3)))})"

@@ -18,7 +18,7 @@ from statehtn.risk.objectives import objective
 from tests.all_laws import Budget
 from tests.lotteries import ALPHAS, FINITE, LAWS, SWEPT, budgets, texts
 from tests.scenarios import correlated_lotteries, hedging_problems
-from tests.strategies import Draw
+from tests.strategies import Draw, between
 
 NO_WORTH = 2**63 - 1
 EXPONENTIAL = (texts(("averse ", "seeking "), ALPHAS), FINITE["one-switch"], FINITE["exponentials"])
@@ -77,7 +77,7 @@ def test_ways_that_are_as_good_are_with_every_completion(kind: str) -> None:
             return
         kept = [Keep(float(budget), float(probability)) for budget, probability in keep]
         ways = Ways(ScenarioLabels(grounding, objective(text), kept, LabelSwitches(), Limits()))
-        number = data.draw(st.integers(2, 4))
+        number = between(data.draw, 2, 4)
         spent = [ways.after(ways.valuation.start(), data.draw(executions(ways, most=3))) for _ in range(number)]
         to_come = data.draw(executions(ways, most=2))
         least = ways.least(to_come)
