@@ -12,6 +12,7 @@ import itertools
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from statehtn.model import TRUE, Decomposition, Formula, Plan, Problem, Step, TaskNetwork
 from statehtn.model.formula import free_variables
@@ -36,7 +37,7 @@ class Task:
     arguments: tuple[str, ...]
     before: frozenset[Path]  # of what has to end before this may start
 
-    @property
+    @cached_property
     def label(self) -> str:
         return f"{self.name} {self.arguments}"
 
@@ -48,7 +49,7 @@ class Condition:
     bindings: tuple[tuple[str, str], ...]
     before: frozenset[Path]
 
-    @property
+    @cached_property
     def label(self) -> str:
         return f"{self.formula} {self.bindings}"
 

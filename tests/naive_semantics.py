@@ -50,6 +50,7 @@ class Semantics:
         changing = {effect.atom.predicate for action in self.domain.actions.values() for effect in action.all_effects}
         self.fixed = set(self.domain.predicates) - changing
         self.instances = cache(self._instances)
+        self.law = cache(self._law)
 
     # --- formulas
 
@@ -115,7 +116,7 @@ class Semantics:
                     (added if effect.positive else deleted).add(fact)
         return added, deleted
 
-    def law(self, name: str, arguments: tuple[str, ...], state: State | None) -> CostDistribution:
+    def _law(self, name: str, arguments: tuple[str, ...], state: State | None) -> CostDistribution:
         """The law of the cost of an action that is executed in a state; without a state, of the part always due."""
         law = self.exact_law(name, arguments, state)
         return CostDistribution.of((float(probability), float(cost)) for cost, probability in law.items())

@@ -79,7 +79,6 @@ MEMORY = {
             )
         ),
     ),
-    "evar": st.builds("evar {}".format, st.sampled_from(("0.5", "0.9"))),
 }
 FUNCTIONS: list[Callable[[Fraction], Fraction]] = [
     lambda cost: cost**2,
@@ -206,6 +205,12 @@ def test_agents_that_look_at_what_they_have_spent(family: str, data: st.DataObje
     problem = data.draw(problems(("total", "none", "partial")))
     infinite = st.just(INFINITE) if family in ("deadline", "quantile") else st.nothing()
     check(problem, data.draw(MEMORY[family]), data.draw(st.one_of(FAILURE_COSTS, infinite)))
+
+
+@share_of_examples(10)  # each is a sweep over agents
+@given(problem=problems(("total", "none", "partial")), level=st.sampled_from(("0.5", "0.9")), price=FAILURE_COSTS)
+def test_entropic_value_at_risk(problem: Problem, level: str, price: FailureCost) -> None:
+    check(problem, f"evar {level}", price)
 
 
 @SHARE
