@@ -32,16 +32,16 @@ class StormModel:
             path = Path(folder, "model.prism")
             path.write_text("\n".join(lines))
             self.program = stormpy.parse_prism_program(path)
+        build = stormpy.build_model[stormpy.Rational] if exact else stormpy.build_model
+        self.model = build(self.program)  # for all properties
         self.names = (f"K{number}" for number in itertools.count())  # Storm takes no name twice
 
     def value(self, formula: str) -> Fraction | float:
         """The value of a property in the initial state."""
         wanted = stormpy.parse_property(formula, self.program)
-        build = stormpy.build_model[stormpy.Rational] if self.exact else stormpy.build_model
-        model = build(self.program, [wanted])
         environment = stormpy.environments.exact() if self.exact else stormpy.environments.sound()
-        found = stormpy.model_checking(model, wanted, only_initial_states=True, environment=environment)
-        text = str(found.get_value(model.initial_states[0]))
+        found = stormpy.model_checking(self.model, wanted, only_initial_states=True, environment=environment)
+        text = str(found.get_value(self.model.initial_states[0]))
         return math.inf if "inf" in text else Fraction(text)
 
     @cached_property
