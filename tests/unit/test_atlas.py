@@ -5,12 +5,14 @@ from __future__ import annotations
 import itertools
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy
 import pytest
 
 import statehtn
+from statehtn.atlas.between import all_deadlines, all_wealths
 from statehtn.cli import main
 from statehtn.display.atlas.alpha_axis import AlphaAxis, words
 from statehtn.model import CostDistribution, CostLaw, Problem
@@ -93,6 +95,39 @@ def test_everything_of_a_small_problem_is_proven(atlas: statehtn.Atlas) -> None:
     assert data["map"]["intervals"][0]["alpha_from"] is None
     assert data["plans"][data["plan_of_interval"][3]]["mean"] == pytest.approx(19.4)
     assert repr(atlas).startswith("<atlas of 'p1': <attitude map from -inf to inf: optimal, 4 plans")
+
+
+def test_what_is_said_between_answers_is_true(p1: Problem, atlas: statehtn.Atlas) -> None:
+    plans = [plan.with_costs(statehtn.validate(p1, plan).costs).cost_distribution() for plan in all_plans(p1)]
+    alpha, tradeoff = atlas.one_switch
+    cases = (
+        (all_deadlines(atlas, 3), atlas.deadlines, statehtn.Deadline),
+        (all_wealths(atlas, 3), atlas.wealths, lambda at: statehtn.OneSwitch(alpha, tradeoff, at)),
+    )
+    for known, asked, objective in cases:
+        assert len(known) == 4 * (len(asked) - 1) + 1
+        assert [choice.at for choice in known] == sorted(choice.at for choice in known)
+        assert [choice for choice in known if choice in asked] == asked
+        for choice in known:
+            wanted = objective(choice.at)
+            best = min(wanted.value(law) for law in plans)
+            assert choice.plan is not None
+            assert choice.value is not None
+            assert choice.gap is not None
+            assert choice.value == pytest.approx(wanted.value(atlas.plans[choice.plan].total), rel=1e-9, abs=1e-12)
+            assert choice.value - choice.gap - 1e-9 <= best <= choice.value + 1e-9
+    proven = [choice for choice in all_wealths(atlas, 3) if (choice.gap or 0) <= 1e-5]
+    assert len(proven) > 3 * len(atlas.wealths)  # where one plan is the best on both sides, it is between them
+
+
+def test_between_answers_without_a_proof_nothing_is_claimed(atlas: statehtn.Atlas) -> None:
+    worse = [replace(choice, gap=None) for choice in atlas.deadlines]
+    known = all_deadlines(replace(atlas, deadlines=worse), 1)
+    assert all(choice.gap is None for choice in known)
+    loose = [replace(choice, gap=0.25) for choice in atlas.deadlines]
+    for choice in all_deadlines(replace(atlas, deadlines=loose), 1):
+        assert choice.gap is not None
+        assert choice.gap >= 0.25 or choice.value - choice.gap <= 0 or choice.at in {one.at for one in loose}
 
 
 def test_maps_and_frontiers_are_rows(atlas: statehtn.Atlas) -> None:

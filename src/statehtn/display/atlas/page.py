@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from statehtn.atlas.between import all_deadlines, all_wealths
 from statehtn.atlas.survey import LEVEL, Atlas, AtlasPlan, Choice
 from statehtn.display.atlas.alpha_axis import AlphaAxis, words
 from statehtn.experiments.report import page as report
@@ -18,6 +19,8 @@ from statehtn.model.status import Status
 
 FOLDER = Path(__file__).parent
 SLIDER_STEPS = 201
+BETWEEN = 4
+"""Places of the other sliders between two answers, at which is shown what follows from these."""
 MOST_ROWS = 2000
 """Of a decomposition: what is longer is cut."""
 MOST_CHANGES = 12
@@ -86,8 +89,8 @@ def _content(atlas: Atlas) -> dict[str, Any]:
         "data": {
             "frame": [frame.left, frame.right, frame.top, frame.bottom],
             "alpha": _alpha_steps(atlas, axis),
-            "deadline": [_choice_step(atlas, one, f"deadline {one.at:g}") for one in atlas.deadlines],
-            "wealth": [_choice_step(atlas, one, f"wealth {one.at:g}") for one in atlas.wealths],
+            "deadline": _choice_steps(atlas, "deadline", all_deadlines(atlas, BETWEEN), atlas.deadlines),
+            "wealth": _choice_steps(atlas, "wealth", all_wealths(atlas, BETWEEN), atlas.wealths),
         },
         "start": _neutral_step(axis),
         "open": _open(atlas),
@@ -115,14 +118,21 @@ def _neutral_step(axis: AlphaAxis) -> int:
     return min(range(SLIDER_STEPS), key=lambda index: abs(places[index]))
 
 
-def _choice_step(atlas: Atlas, choice: Choice, what: str) -> list[object]:
+def _choice_steps(atlas: Atlas, what: str, known: Sequence[Choice], asked: Sequence[Choice]) -> list[list[object]]:
+    """Return for each step of a slider the plan, and what is said of it: less where nothing was searched for."""
+    answers = {choice.at for choice in asked}
+    return [_choice_step(atlas, choice, f"{what} {choice.at:.6g}", choice.at in answers) for choice in known]
+
+
+def _choice_step(atlas: Atlas, choice: Choice, what: str, is_answer: bool) -> list[object]:
     if choice.plan is None:
         return [None, f"{what}: no plan was found in time", 0.0]
     said = f"{what}: plan {atlas.plans[choice.plan].name}, value {choice.value:.5g}"
+    which = "another plan" if is_answer else "a plan that is not on this page"
     if choice.gap is None:
         return [choice.plan, f"{said} (nothing is proven)", 0.0]
-    said += "" if choice.gap <= 1e-5 * max(1.0, abs(choice.value or 0)) else f" (may be better by {choice.gap:.2g})"
-    return [choice.plan, said, 0.0]
+    is_best = choice.gap <= 1e-5 * max(1.0, abs(choice.value or 0))
+    return [choice.plan, said + ("" if is_best else f" ({which} may be better by up to {choice.gap:.2g})"), 0.0]
 
 
 def _intervals(atlas: Atlas) -> list[tuple[str, str, AtlasPlan, int, str]]:
