@@ -31,6 +31,17 @@ void NetworkNodes::add(PairId pair, AmountLeft left) {
     node_table_.add(hash_of(Node{pair, left}), id);
 }
 
+namespace {
+
+// What it saves to expand no node that need not be expanded is not known here: as much as many evaluations.
+constexpr std::uint64_t kWorkSaved = std::uint64_t{1} << 8;
+// In units of the heuristic's work: it may take so much for each pair, about what an expansion takes, and at
+// first a part of a second.
+constexpr std::uint64_t kWorkPerPair = 1500;
+constexpr std::uint64_t kFirstWork = std::uint64_t{1} << 26;
+
+}  // namespace
+
 PairBounds::PairBounds(const PricedProblem& priced, const HeuristicInfo& heuristic, PolicyProgression& progression,
                        const NetworkNodes& nodes, Limits& limits)
     : progression_(progression),
@@ -47,17 +58,17 @@ Cost PairBounds::known(PairId pair) {
 
 Cost PairBounds::closer(PairId pair) {
     Entry entry{known(pair), entries_[pair].is_asked};
-    if (entry.is_asked || entry.bound >= kInfinity || !heuristic_.is_worth_asking()) {
+    if (entry.is_asked || entry.bound >= kInfinity || !is_affordable() || !heuristic_.is_worth_asking()) {
         return entry.bound;
     }
     NodeView view = progression_.view(nodes_.state(pair), nodes_.network(pair));
     view.tdg_bound = entry.bound;
     const Cost told = heuristic_->evaluate(view).value_or(kInfinity);
-    // What it saves to expand no node that need not be expanded is not known here: as much as many evaluations.
-    constexpr std::uint64_t kWorkSaved = std::uint64_t{1} << 8;
     heuristic_.note_answer(told > entry.bound, kWorkSaved);
     entries_[pair] = {std::max(entry.bound, told), true};
     return entries_[pair].bound;
 }
+
+bool PairBounds::is_affordable() { return heuristic_->work() <= kFirstWork + kWorkPerPair * nodes_.pair_count(); }
 
 }  // namespace relax

@@ -7,7 +7,7 @@ namespace relax {
 
 namespace {
 
-constexpr std::uint32_t kSweeps = 8;  // between two evaluations
+constexpr std::uint32_t kSweeps = 2;  // between two evaluations
 constexpr std::uint32_t kMostRounds = 10000;
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t kRoundsUntilIteration = 8;  // without an open node, while choices still change
 constexpr std::uint32_t kQuietIterations = 4;       // then all that is explored is taken into the envelope
+constexpr std::size_t kUpperGrowth = 8;             // of what is explored, until an upper worth is found again
 constexpr std::size_t kPlunges = 1000;              // per round at least
 
 }  // namespace
@@ -80,7 +81,7 @@ void PolicySearch::search() {
             }
         }
         if (statistics_.expanded >= next_upper_) {
-            next_upper_ = 2 * statistics_.expanded;
+            next_upper_ = kUpperGrowth * statistics_.expanded;
             improve_explored();
             if (is_near()) {
                 return;

@@ -36,12 +36,12 @@ bool PolicySearch::improve_envelope() {
     return keep_if_closed(Outside::Lower);
 }
 
-// Expand some of the open nodes to which decisions of the envelope lead.
+// Expand some of the open nodes to which decisions of the envelope lead: as many as it has, so that all envelopes
+// together are not much more than the last one.
 void PolicySearch::expand_around() {
-    constexpr std::size_t kShare = 2;  // of as many as the envelope has
     std::vector<PolicyNodeId> open;
     ++round_;
-    for (auto node = members_.rbegin(); node != members_.rend() && open.size() <= members_.size() / kShare; ++node) {
+    for (auto node = members_.rbegin(); node != members_.rend() && open.size() <= members_.size(); ++node) {
         for (const DecisionId decision : graph_.decisions_of(*node)) {
             for (const PolicyNodeId to : graph_.successors(decision)) {
                 DecisionGraph::Node& found = graph_[to];

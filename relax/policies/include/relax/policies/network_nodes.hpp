@@ -79,6 +79,8 @@ private:
         bool is_asked;
     };
 
+    bool is_affordable();
+
     PolicyProgression& progression_;
     const NetworkNodes& nodes_;
     NetworkBounds network_bounds_;
