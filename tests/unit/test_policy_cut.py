@@ -127,7 +127,7 @@ def test_one_term_alone(objective: str, same: str) -> None:
     assert policy(objective, 5).value == pytest.approx(policy(same, 5).value, rel=1e-9)
 
 
-@pytest.mark.parametrize("steps", [1, 500, 2000, 5000, 20_000])
+@pytest.mark.parametrize("steps", [1, 500, 2000, 5000])
 def test_limits_leave_bounds(steps: int) -> None:
     problem = statehtn.read_hddl("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p2.hddl")
     settings = PolicySettings.of("exponentials linear=1 0.1:1 -0.1:3")
