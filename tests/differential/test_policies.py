@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from unittest import mock
 
 import pytest
 from hypothesis import given
@@ -16,6 +17,7 @@ from hypothesis import strategies as st
 
 import statehtn
 from statehtn import PolicyResult, Problem, Status
+from statehtn.core.policy_cut import CutPolicies
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
 from statehtn.model.policy_graph import PolicyNode
@@ -211,6 +213,17 @@ def test_agents_that_look_at_what_they_have_spent(family: str, data: st.DataObje
 @given(problem=problems(("total", "none", "partial")), level=st.sampled_from(("0.5", "0.9")), price=FAILURE_COSTS)
 def test_entropic_value_at_risk(problem: Problem, level: str, price: FailureCost) -> None:
     check(problem, f"evar {level}", price)
+
+
+@SHARE
+@given(data=st.data())
+def test_what_is_remembered_up_to_a_cut(data: st.DataObject) -> None:
+    """Wherever the first cut is; by itself the search begins without one, which is often enough."""
+    several = problems(("total", "none", "partial"))
+    problem = data.draw(st.one_of(several, several, lottery_problems()))
+    text = data.draw(st.one_of(MEMORY["one-switch"], MEMORY["exponentials"]))
+    with mock.patch.object(CutPolicies, "first_cut", data.draw(st.sampled_from((0, 1, 3, 8, 30)))):
+        check(problem, text, data.draw(FAILURE_COSTS))
 
 
 @SHARE

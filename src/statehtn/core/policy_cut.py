@@ -58,6 +58,8 @@ class CutPolicies(PolicyRun):
     """
 
     recursion = _relax.Recursion.LogExpected
+    first_cut: int | None = None
+    """How many steps are remembered at first. None: nothing; one policy may be best for all terms."""
 
     def __init__(
         self,
@@ -98,11 +100,8 @@ class CutPolicies(PolicyRun):
         ]
 
     def outcome(self, limits: Limits) -> PolicyOutcome:
-        """Search with one cut after the other, and return what was found.
-
-        At first nothing is remembered: one policy may be best for all terms. Then it is as much as that one is worth.
-        """
-        cut: int | None = None
+        """Search with one cut after the other, and return what was found."""
+        cut = self.first_cut
         best: tuple[PolicyOutcome, int | None] | None = None
         while True:
             found = self._up_to(cut, limits)
@@ -110,6 +109,10 @@ class CutPolicies(PolicyRun):
             if found.graph is None:
                 break
             worth = self.value_of(found.graph.flat)
+            if math.isinf(worth):  # the core has found it to be finite: a spectral radius of nearly 1
+                self.is_undecided = True
+                found = replace(found, status=Status.UNSOLVABLE, graph=None, upper=None)
+                break
             if best is None or worth < self.value:
                 best, self.value = (found, cut), worth
             if self._is_optimal or self.stopped is not None:
