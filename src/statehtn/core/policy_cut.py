@@ -140,7 +140,7 @@ class CutPolicies(PolicyRun):
         """Return the best outcome; where it is not that of the last run, its policy is found again, to be read."""
         stopped = None if self._is_optimal else self.stopped
         if its_cut != cut:
-            again = self._up_to(its_cut, limits.with_grace(1.0))
+            again = self._up_to(its_cut, limits.with_grace(1.0, is_over=self.stopped is not None))
             best = best if again.graph is None else again
         status = Status.OPTIMAL if self._is_optimal else Status.SOLVED
         low, high = _finite(self.bound), _finite(self.value)
@@ -155,13 +155,13 @@ class CutPolicies(PolicyRun):
         if cut is not None:
             found = self.start(self.run, limits, cut)
             return self.finished(found.lower, found.upper, self.run, SpendingLaws(self.grid), found.upper < math.inf)
-        lower, upper = list[float](), list[float]()
+        lower, upper, stopped = list[float](), list[float](), None
         for number, term in reversed(list(enumerate(self.terms))):
-            found = self.start(self.run, limits, -1 - number)
+            found = self.start(self.run, limits.with_grace(1.0, is_over=True) if stopped else limits, -1 - number)
             lower.append(term.log_weight + found.lower)
             upper.append(term.log_weight + (found.upper if found.upper < math.inf else found.lower))
-            if self.stopped is not None and number > 0:
-                limits = limits.with_grace(1.0)
+            stopped = stopped or self.stopped
+        self.stopped = stopped
         laws, has_policy = BranchLaws(self.problem.grounding), found.upper < math.inf
         return self.finished(_log_sum(lower), _log_sum(upper), self.run, laws, has_policy)
 
