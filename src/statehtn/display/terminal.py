@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
@@ -32,6 +33,9 @@ def rendered(
 ) -> str:
     """Render for a stream: coloured and, unless told not to, wrapped on a terminal; plain and wide elsewhere.
 
+    The environment has its say: NO_COLOR leaves out colours, FORCE_COLOR asks for them elsewhere, too, and a terminal
+    with TERM=dumb has none.
+
     Args:
         parts: stand below each other.
         stream: standard output if none is given.
@@ -41,10 +45,11 @@ def rendered(
     from rich.console import Console  # takes a moment to import
 
     terminal = (stream or sys.stdout).isatty()
+    styled = terminal or os.environ.get("FORCE_COLOR", "") != ""
     console = Console(
         file=io.StringIO(),
-        force_terminal=terminal,
-        color_system="auto" if terminal else None,
+        force_terminal=styled,
+        color_system="auto" if styled else None,
         width=shutil.get_terminal_size().columns if terminal and wrap else PIPE_WIDTH,
         markup=False,
         highlight=False,

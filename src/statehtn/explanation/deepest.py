@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from itertools import count
 
 from statehtn.core.grounding import PLAIN, ground
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import LimitReached, Limits, status_of
 from statehtn.model import GroundAction, GroundProblem, Problem
 from statehtn.model.formula import Fact
 from statehtn.model.plan import Step
+from statehtn.model.status import Status
 from statehtn.reference.find_plans import successors
 from statehtn.reference.search_node import SearchNode, initial_node
 from statehtn.risk import Neutral
@@ -68,11 +69,13 @@ class Exploration:
         deadlocks: the points with the most actions executed, at most one for each task and what it lacks.
         nodes: how many nodes were looked at.
         is_all: whether these are all there are.
+        stopped: what ended it before its time: Ctrl-C, or too little memory.
     """
 
     deadlocks: tuple[Deadlock, ...]
     nodes: int
     is_all: bool
+    stopped: Status | None = None
 
 
 def explore(problem: Problem, limits: Limits = Limits()) -> Exploration:
@@ -89,6 +92,7 @@ def explore(problem: Problem, limits: Limits = Limits()) -> Exploration:
     known = {(first.state, first.network.key())}
     found: dict[tuple[str, tuple[Lack, ...]], Deadlock] = {}
     nodes = 0
+    stopped: Status | None = None
     try:
         while queue and nodes < MOST_NODES:
             limits.check()
@@ -106,10 +110,12 @@ def explore(problem: Problem, limits: Limits = Limits()) -> Exploration:
                     heapq.heappush(queue, (len(each.network.tasks), next(number), each))
     except LimitReached:
         pass
+    except (KeyboardInterrupt, MemoryError) as ending:
+        stopped = status_of(ending)
     most = max((len(deadlock.steps) for deadlock in found.values()), default=0)
     deepest = sorted(found.values(), key=lambda deadlock: -len(deadlock.steps))
     shown = (deadlock for deadlock in deepest[:MOST_SHOWN] if len(deadlock.steps) >= most - NEARLY)
-    return Exploration(tuple(shown), nodes, not queue)
+    return Exploration(tuple(shown), nodes, not queue and stopped is None, stopped)
 
 
 def _deadlocks(node: SearchNode, model: GroundProblem) -> Iterator[Deadlock]:

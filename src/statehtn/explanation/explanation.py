@@ -34,7 +34,8 @@ class NoPlan:
     """Why a problem has no plan, or that it has one.
 
     Args:
-        status: unsolvable; solved, if it has a plan; else what ended the search for that.
+        status: unsolvable; solved, if it has a plan; else what ended the search for that. Where there is a reason or an
+            exploration, too: what ended the search for more.
         reason: why tasks cannot be accomplished even if nothing is ever deleted; None if they can be.
         additions: sets of facts and objects, each of which would make that possible; of none of them a member can be
             left out.
@@ -91,8 +92,7 @@ def why_no_plan(problem: Problem, limits: Limits, objective: PolicyObjective | N
     try:
         reason = relaxed_reason(problem, limits)
         if reason is not None:
-            found = smallest_additions(problem, reason, _at_most(limits, SECONDS_TO_TRY))
-            return NoPlan(Status.UNSOLVABLE, reason, tuple(found))
+            return _with_additions(problem, reason, limits)
         if problem.domain.has_outcomes:
             found_out = _by_chance(problem, objective or Neutral(), limits)
             if found_out is not None:
@@ -101,9 +101,19 @@ def why_no_plan(problem: Problem, limits: Limits, objective: PolicyObjective | N
             result = any_plan(problem, limits)
             if result.status is not Status.UNSOLVABLE:
                 return NoPlan(result.status, plan=result.plan)
-        return NoPlan(Status.UNSOLVABLE, exploration=explore(problem, _at_most(limits, SECONDS_TO_TRY)))
+        explored = explore(problem, _at_most(limits, SECONDS_TO_TRY))
+        return NoPlan(explored.stopped or Status.UNSOLVABLE, exploration=explored)
     except ENDINGS as ending:
         return NoPlan(status_of(ending))
+
+
+def _with_additions(problem: Problem, reason: Reason, limits: Limits) -> NoPlan:
+    """Return a reason with what would help; without, where Ctrl-C comes first."""
+    try:
+        found = smallest_additions(problem, reason, _at_most(limits, SECONDS_TO_TRY))
+    except ENDINGS as ending:
+        return NoPlan(status_of(ending), reason)
+    return NoPlan(Status.UNSOLVABLE, reason, tuple(found))
 
 
 def _by_chance(problem: Problem, objective: PolicyObjective, limits: Limits) -> NoPlan | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from dataclasses import dataclass
 from os import PathLike
 
 from statehtn.errors import StateHtnError
@@ -18,7 +18,8 @@ from statehtn.inspection.reachability import check_reachability, reached, ungrou
 from statehtn.inspection.refusals import refusals
 from statehtn.inspection.subject import Subject
 from statehtn.inspection.tasks import check_tasks
-from statehtn.limits import Limits, watched
+from statehtn.limits import ENDINGS, Limits, watched
+from statehtn.model import Problem
 
 FAMILIES = (check_tasks, check_conditions, check_costs, check_parameters, check_orderings, check_names)
 """What looks at a model that has been read, each for slips of one kind."""
@@ -53,25 +54,52 @@ def check(
     limits = Limits.starting_now(time_limit, memory_limit)
     domain = file_name(domain, "the domain")
     problem = None if problem is None else file_name(problem, "the problem")
-    return inspected(domain, problem, limits)
+    inspection = inspected(domain, problem, limits)
+    if inspection.ending is not None:
+        raise inspection.ending
+    return inspection.findings
 
 
-def inspected(domain: str, problem: str | None, limits: Limits) -> list[Finding]:
-    """Return what is wrong or suspicious in files; as `check`."""
-    with watched(limits):
-        reading = read_whole_hddl(domain, problem, limits)
-        subject = _subject(reading)
-        own = [finding for family in FAMILIES for finding in family(subject)] if subject is not None else []
-    if subject is None or subject.problem is None:
-        return in_order((*refusals(reading), *own))
+@dataclass(frozen=True, slots=True)
+class Inspection:
+    """What was found, and what ended that before it was done.
+
+    Args:
+        findings: in order.
+        ending: a limit that was reached, or Ctrl-C; None where all was looked at.
+    """
+
+    findings: list[Finding]
+    ending: BaseException | None = None
+
+
+def inspected(domain: str, problem: str | None, limits: Limits) -> Inspection:
+    """Return what is wrong or suspicious in files; as `check`, but what was found before a limit, too."""
+    said: list[Finding] = []
+    own: list[Finding] = []
     try:
-        found = reached(subject.problem, limits)
+        with watched(limits):
+            reading = read_whole_hddl(domain, problem, limits)
+            said += refusals(reading)
+            subject = _subject(reading)
+            if subject is not None:
+                for family in FAMILIES:
+                    own += family(subject)
+        if subject is not None and subject.problem is not None:
+            own = _with_grounding(subject, subject.problem, own, limits)
+    except ENDINGS as ending:
+        return Inspection(in_order((*said, *own)), ending)
+    return Inspection(in_order((*said, *own)))
+
+
+def _with_grounding(subject: Subject, problem: Problem, own: list[Finding], limits: Limits) -> list[Finding]:
+    """Return findings with those that grounding tells."""
+    try:
+        found = reached(problem, limits)
     except StateHtnError as error:
-        return in_order((*refusals(reading), *own, ungrounded(error)))
-    findings: Iterable[Finding] = (*own, *check_reachability(subject, found, limits))
-    if found.reason is not None:
-        findings = with_causes(findings, found.reason)
-    return in_order((*refusals(reading), *findings))
+        return [*own, ungrounded(error)]
+    findings = [*own, *check_reachability(subject, found, limits)]
+    return findings if found.reason is None else list(with_causes(findings, found.reason))
 
 
 def _subject(reading: Reading) -> Subject | None:
