@@ -94,12 +94,14 @@ public:
         terms_.push_back({{slope, log_weight, 1}, {actions, parts}, &priced, unit});
     }
 
-    void take_terms(const relax::CostLaws& laws, double step, double failure, std::string_view heuristic) {
+    // `is_only_sought`: as of DisutilityTerm; the recursion of the options must be Seeking then, else LogExpected.
+    void take_terms(const relax::CostLaws& laws, double step, double failure, bool is_only_sought,
+                    std::string_view heuristic) {
         if (terms_.empty()) {
             throw std::invalid_argument("there must be a term");
         }
         for (auto& [term, amounts, priced, unit] : terms_) {
-            term = relax::DisutilityTerm::of(term.slope, term.log_weight, step);
+            term = relax::DisutilityTerm::of(term.slope, term.log_weight, step, is_only_sought);
         }
         make_ = [this, &laws, costs = relax::CutSource::Costs{step, failure},
                  info = admissible(heuristic)]() -> std::unique_ptr<relax::PlanningSource> {
@@ -263,7 +265,7 @@ void bind_policy_search(nb::module_& module) {
              "beyond"_a, "slope"_a, "failure"_a.none(), "heuristic"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("add_term", &PolicyRun::add_term, "slope"_a, "log_weight"_a, "actions"_a, "parts"_a, "priced"_a, "unit"_a,
              nb::keep_alive<1, 6>())
-        .def("take_terms", &PolicyRun::take_terms, "laws"_a, "step"_a, "failure"_a, "heuristic"_a,
+        .def("take_terms", &PolicyRun::take_terms, "laws"_a, "step"_a, "failure"_a, "is_only_sought"_a, "heuristic"_a,
              nb::keep_alive<1, 2>())
         .def("set_precision", &PolicyRun::set_precision, "precision"_a)
         .def("certain_cost", &PolicyRun::certain_cost, "worth"_a)

@@ -13,7 +13,11 @@ namespace relax {
 CutSource::CutSource(PolicyProgression& progression, std::vector<double> probabilities, const CostLaws& laws,
                      const Costs& costs, const std::vector<PricedTerm>& terms, const HeuristicInfo& heuristic,
                      Limits& limits)
-    : PlanningSource(progression, std::move(probabilities)), laws_(laws, LawDetail{}), costs_(costs), limits_(limits) {
+    : PlanningSource(progression, std::move(probabilities)),
+      laws_(laws, LawDetail{}),
+      costs_(costs),
+      sign_(terms.front().term.is_only_sought() ? -1 : 1),
+      limits_(limits) {
     for (const PricedTerm& term : terms) {
         terms_.push_back(term.term);
         amounts_.push_back(term.amounts);
@@ -43,7 +47,7 @@ PolicyNodeId CutSource::add(DecisionGraph& graph, StateId state, NetworkId netwo
     const PolicyNodeId node = nodes_.find(pair, left);
     if (!nodes_.has(node)) {
         if (progression_.is_done(network)) {
-            graph.add_done(is_beyond(left) ? terms_[term_of(left)].log_at(0) : log_disutility(terms_, spent(left)));
+            graph.add_done(is_beyond(left) ? worth(term_of(left), 0) : worth_of(terms_, spent(left)));
         } else {
             const double worth = lower(left, [&](std::size_t term) { return bounds_[term]->known(pair); });
             graph.add_open(worth, stop(left), static_cast<float>(progression_.networks().size(network)));
@@ -63,7 +67,7 @@ double CutSource::lower(AmountLeft left, CostOf cost_of) const {
     };
     if (is_beyond(left)) {
         const double cost = least(term_of(left));
-        return cost == kNever ? kNever : terms_[term_of(left)].log_at(cost);
+        return cost == kNever ? kNever : worth(term_of(left), cost);
     }
     double sum = -kNever;
     for (std::size_t term = 0; term < terms_.size(); ++term) {
@@ -73,15 +77,14 @@ double CutSource::lower(AmountLeft left, CostOf cost_of) const {
         }
         sum = log_sum(sum, terms_[term].log_weight + terms_[term].log_at(spent(left) + cost));
     }
-    return sum;
+    return sign_ * sum;
 }
 
 double CutSource::stop(AmountLeft left) const {
     if (costs_.failure == kNever) {
         return kNever;
     }
-    return is_beyond(left) ? terms_[term_of(left)].log_at(costs_.failure)
-                           : log_disutility(terms_, spent(left) + costs_.failure);
+    return is_beyond(left) ? worth(term_of(left), costs_.failure) : worth_of(terms_, spent(left) + costs_.failure);
 }
 
 double CutSource::bound(PolicyNodeId node, double known) {

@@ -23,13 +23,19 @@ double log_sum(double one, double other) {
     return larger == -kInfinite ? larger : larger + std::log1p(std::exp(std::min(one, other) - larger));
 }
 
-DisutilityTerm DisutilityTerm::of(double slope, double log_weight, double step) {
+DisutilityTerm DisutilityTerm::of(double slope, double log_weight, double step, bool is_only_sought) {
+    if (is_only_sought) {
+        return {slope, log_weight, 1 / slope};
+    }
     const double base = std::min(step, 1.0);
     return {slope, log_weight, slope > 0 ? std::min(base, 1 / slope) : base};
 }
 
 double DisutilityTerm::log_at(double cost) const {
     const double exponent = slope * cost;
+    if (is_only_sought()) {
+        return exponent - std::log(-slope);
+    }
     if (exponent > kLargeExponent) {
         return log_of_large(slope, exponent, slope * base);
     }
@@ -38,7 +44,7 @@ double DisutilityTerm::log_at(double cost) const {
 
 double DisutilityTerm::log_constant(double spent) const {
     const double kept = 1 - base * slope;
-    if (kept <= 0) {
+    if (kept <= 0 || is_only_sought()) {
         return -kInfinite;
     }
     const double exponent = slope * spent;
@@ -48,18 +54,18 @@ double DisutilityTerm::log_constant(double spent) const {
     return std::log(kept * (slope == 0 ? spent : std::expm1(exponent) / slope));
 }
 
-double log_disutility(std::span<const DisutilityTerm> terms, double cost) {
+double worth_of(std::span<const DisutilityTerm> terms, double cost) {
     double sum = -kInfinite;
     for (const DisutilityTerm& term : terms) {
         sum = log_sum(sum, term.log_weight + term.log_at(cost));
     }
-    return sum;
+    return terms.front().is_only_sought() ? -sum : sum;
 }
 
-double certain_cost(std::span<const DisutilityTerm> terms, double log_of_disutility) {
+double certain_cost(std::span<const DisutilityTerm> terms, double worth) {
     double low = 0;
     double high = 1;
-    while (log_disutility(terms, high) < log_of_disutility) {
+    while (worth_of(terms, high) < worth) {
         if (high == kInfinite) {
             return high;
         }
@@ -71,7 +77,7 @@ double certain_cost(std::span<const DisutilityTerm> terms, double log_of_disutil
         if (middle <= low || middle >= high) {
             return high;
         }
-        (log_disutility(terms, middle) < log_of_disutility ? low : high) = middle;
+        (worth_of(terms, middle) < worth ? low : high) = middle;
     }
 }
 

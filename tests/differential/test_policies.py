@@ -75,6 +75,8 @@ MEMORY = {
             (
                 "exponentials linear=1 -0.3:2",
                 "exponentials linear=0 -0.2:1 -1:3",
+                "exponentials linear=0 -0.5:1 -2:9",
+                "exponentials linear=0 -0.002:1 -0.01:9",
                 "exponentials linear=0 0.1:1 0.4:0.05",
                 "exponentials linear=2",
                 "exponentials linear=0 0.3:1",

@@ -127,6 +127,24 @@ def test_one_term_alone(objective: str, same: str) -> None:
     assert policy(objective, 5).value == pytest.approx(policy(same, 5).value, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("objective", "status"),
+    [
+        ("exponentials linear=0 -1:1 -2:1", Status.OPTIMAL),
+        ("exponentials linear=0 -10:1", Status.OPTIMAL),
+        ("exponentials linear=0 -1e-9:1 -1e-7:3", Status.OPTIMAL),
+        ("exponentials linear=1e-300 -1:1", Status.SOLVED),  # more than 37 are as bad as 37, to 16 digits
+    ],
+)
+def test_who_seeks_risk_minds_large_costs_too(objective: str, status: Status) -> None:
+    """All that can be done costs 60: nothing of that is lost in the differences of exponentials."""
+    text = DOMAIN.format(leave=LEAVE, price=60).replace("(increase (total-cost) 1)", "(increase (total-cost) 100)")
+    result = statehtn.policy(statehtn.read_hddl_text(text, PROBLEM), objective=objective)
+    assert result.status is status
+    assert result.value == pytest.approx(60, rel=1e-9)
+    assert result.lower_bound <= 60
+
+
 @pytest.mark.parametrize("steps", [1, 500, 2000, 5000])
 def test_limits_leave_bounds(steps: int) -> None:
     problem = statehtn.read_hddl("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p2.hddl")

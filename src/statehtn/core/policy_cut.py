@@ -8,6 +8,7 @@ follows from its runs. The cut moves until the two meet.
 from __future__ import annotations
 
 import math
+import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -29,6 +30,8 @@ from statehtn.risk import Attitude, Exponential, Exponentials, Neutral, OneSwitc
 ROUNDING = 2.0**-38
 """Of the logarithm of an expected disutility, or of 1 if that is more."""
 LEAST_TOLERANCE = 1e-15
+LARGE_EXPONENT = 0.1
+"""Of a cost, where risk is only sought: from there on disutilities become too much alike to be carried over."""
 FINER = 64
 """By which the tolerance is divided where certainty equivalents are farther apart than logarithms."""
 MOST_CUT = MOST_LEFT // 8
@@ -57,7 +60,8 @@ class CutPolicies(PolicyRun):
         value_of: what a policy is worth by the objective, worked out from its runs; may be infinite.
     """
 
-    recursion = _relax.Recursion.LogExpected
+    sign = 1.0
+    """Of logarithms of disutilities as worths: -1 where these are of sums that fall as costs rise."""
     first_cut: int | None = None
     """How many steps are remembered at first. None: nothing; one policy may be best for all terms."""
 
@@ -79,13 +83,17 @@ class CutPolicies(PolicyRun):
         self.tolerance = precision / 16
         """How far apart the bounds of the core may be: logarithms, relative to the larger, or to 1."""
         self.bound, self.value = -math.inf, math.inf
+        slopes = [term.slope for term in self.terms]
+        is_only_sought = slopes[0] < 0 and -slopes[0] * grid.largest > LARGE_EXPONENT
+        self.recursion = _relax.Recursion.Seeking if is_only_sought else _relax.Recursion.LogExpected
+        self.sign = -1.0 if is_only_sought else 1.0
         handle = self.terms[0].prices.handle
         self.run = problem.run(self.options, handle, only_done_runs_pay=failure_cost is None, sees_costs=True)
         for term in self.terms:
             prices = term.prices
             self.run.add_term(term.slope, term.log_weight, prices.actions, prices.parts, prices.handle, prices.unit)
         failure = math.inf if failure_cost is None else failure_cost
-        self.run.take_terms(grid.costs, self.step, failure, problem.heuristic)
+        self.run.take_terms(grid.costs, self.step, failure, is_only_sought, problem.heuristic)
 
     @cached_property
     def terms(self) -> list[_Term]:
@@ -158,12 +166,13 @@ class CutPolicies(PolicyRun):
         lower, upper, stopped = list[float](), list[float](), None
         for number, term in reversed(list(enumerate(self.terms))):
             found = self.start(self.run, limits.with_grace(1.0, is_over=True) if stopped else limits, -1 - number)
-            lower.append(term.log_weight + found.lower)
-            upper.append(term.log_weight + (found.upper if found.upper < math.inf else found.lower))
+            lower.append(term.log_weight + self.sign * found.lower)
+            upper.append(term.log_weight + self.sign * (found.upper if found.upper < math.inf else found.lower))
             stopped = stopped or self.stopped
         self.stopped = stopped
         laws, has_policy = BranchLaws(self.problem.grounding), found.upper < math.inf
-        return self.finished(_log_sum(lower), _log_sum(upper), self.run, laws, has_policy)
+        low, high = (math.inf if found.lower == math.inf else self.sign * _log_sum(logs) for logs in (lower, upper))
+        return self.finished(low, high, self.run, laws, has_policy)
 
     @property
     def options(self) -> _relax.PolicySearchOptions:
@@ -178,7 +187,7 @@ class CutPolicies(PolicyRun):
             None if math.isinf(worth) else self.run.certain_cost(worth + slack * max(1.0, abs(worth)))
             for worth, slack in ((lower, -ROUNDING), (upper, ROUNDING))
         )
-        return low, None if high == math.inf else high
+        return low, None if high is None else min(high, sys.float_info.max)
 
     def _report(self, statistics: _relax.PolicyStatistics) -> None:
         assert self.watch is not None

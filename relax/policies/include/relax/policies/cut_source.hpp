@@ -22,7 +22,7 @@ namespace relax {
 // - beyond the cut, one of the terms: worth that term of the cost to come alone, which does not depend on what was
 //   spent (disutility_terms.hpp). What leads beyond the cut leads to the nodes of all terms, weighed by what was spent.
 //
-// Worths are logarithms (Recursion::LogExpected).
+// Worths are logarithms (Recursion::LogExpected, or Seeking where the terms are).
 //
 // The best worths of this graph are lower worths. Beyond the cut each term is as small as some policy makes it, and no
 // policy makes their weighted sum smaller than the sum of these: the ideal point. Up to the cut, that is carried back
@@ -83,6 +83,7 @@ private:
     void lead_beyond(DecisionGraph& graph, double left, const PolicyOutcome& outcome, const Law& law, double p,
                      DraftDecision& draft);
     PolicyNodeId add(DecisionGraph& graph, StateId state, NetworkId network, AmountLeft left);
+    double worth(std::size_t term, double cost) const { return sign_ * terms_[term].log_at(cost); }
     double spent(double left) const { return (cut_ - (left - base_)) * costs_.step; }
     template <typename CostOf>
     double lower(AmountLeft left, CostOf cost_of) const;
@@ -91,6 +92,7 @@ private:
 
     LawsSoFar laws_;
     Costs costs_;
+    double sign_;  // of logarithms as worths
     std::vector<DisutilityTerm> terms_;
     std::vector<StepAmounts> amounts_;  // by term
     std::vector<double> units_;
