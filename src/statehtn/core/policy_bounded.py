@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from statehtn.core.law_grid import LawGrid
+from statehtn.core.policy_disutility import Disutility
 from statehtn.core.policy_space import most_cost
-from statehtn.core.policy_spending import Disutility
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits, watched
 from statehtn.model.cost.total import as_decimal

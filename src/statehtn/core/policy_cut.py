@@ -16,11 +16,11 @@ from functools import cached_property
 
 import statehtn._relax as _relax
 from statehtn.core.law_grid import LawGrid
+from statehtn.core.policy_disutility import MOST_LEFT
 from statehtn.core.policy_laws import BranchLaws, SpendingLaws
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem, Prices
 from statehtn.core.policy_run import PolicyRun, Watch, effort_of
-from statehtn.core.policy_spending import MOST_LEFT
 from statehtn.core.progress import Progress
 from statehtn.limits import Limits
 from statehtn.model.policy_graph import FlatPolicy

@@ -9,12 +9,13 @@ from statehtn.core.grounding import Grounding
 from statehtn.core.label_run import PRECISION
 from statehtn.core.policy_bounded import bounded_disutility
 from statehtn.core.policy_cut import CutPolicies
+from statehtn.core.policy_disutility import DISUTILITIES, exact_grid
 from statehtn.core.policy_hopeless import hopeless
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_prices import PricedPolicies, SuccessPolicies, most_success
 from statehtn.core.policy_problem import PolicyProblem
 from statehtn.core.policy_run import PolicyRun, Watch
-from statehtn.core.policy_spending import DISUTILITIES, SpendingPolicies, exact_grid
+from statehtn.core.policy_spending import SpendingPolicies
 from statehtn.core.progress import SearchProgress
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.limits import SECONDS_TO_READ, Limits
