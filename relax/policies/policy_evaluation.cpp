@@ -11,7 +11,6 @@ namespace relax {
 namespace {
 
 constexpr std::uint32_t kElsewhere = std::numeric_limits<std::uint32_t>::max();
-constexpr double kMargin = 1e-9;           // of a spectral radius that is not told from 1
 constexpr double kSeekingMargin = 0;       // it never is 1: a policy is proper before it is evaluated
 constexpr std::uint32_t kMostSweeps = 64;  // for potentials; beyond that they are a little less than the largest path
 
@@ -124,7 +123,7 @@ LinearOutcome PolicyEvaluation::solve_exponential(Envelope& envelope, Recursion 
         exits_.push_back(exit);
     }
     find_potentials(envelope, component);
-    linear_.begin(component.size(), false, sign > 0 ? kMargin : kSeekingMargin);
+    linear_.begin(component.size(), false, sign > 0 ? kRadiusMargin : kSeekingMargin);
     for (std::uint32_t index = 0; index < component.size(); ++index) {
         const auto row = envelope.next(component[index]);
         const auto weights = graph.weights(envelope.choice(component[index]));

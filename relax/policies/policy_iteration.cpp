@@ -1,6 +1,8 @@
 #include "relax/policies/policy_iteration.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace relax {
@@ -64,6 +66,7 @@ void PolicyIteration::start_finite(Envelope& envelope, Recursion kind) {
             envelope.set_worth(place, is_sure[place] ? 0 : kNever);
         }
         iterate(envelope, Recursion::Averse);
+        note_near(envelope, is_sure);
         envelope.set_outside(outside);
         envelope.restore_stops();
         for (std::uint32_t place = 0; place < envelope.size(); ++place) {
@@ -75,6 +78,54 @@ void PolicyIteration::start_finite(Envelope& envelope, Recursion kind) {
     }
     evaluation_.evaluate(envelope, kind);
     stop_where_infinite(envelope, kind);
+}
+
+// Note whether some node has no finite policy only as far as floating point can tell. Where e^W is at least 1 / (1 + m)
+// of Q e^W everywhere, the spectral radius of the policy of Q is at most 1 + m (Collatz and Wielandt); such policies
+// are made of decisions that are worth W, or a bit more, and must be proper. Of radii a bit below 1 the evaluation says
+// so.
+void PolicyIteration::note_near(const Envelope& envelope, const std::vector<bool>& is_sure) {
+    std::vector<bool> is_near(envelope.size());
+    for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+        is_near[place] = is_sure[place] && envelope.worth(place) != -kNever && envelope.worth(place) != kNever;
+    }
+    while (true) {
+        std::vector<bool> leaves(envelope.size());  // by decisions after which nothing but such nodes comes
+        while (spread_near(envelope, is_near, leaves)) {
+        }
+        if (leaves == is_near) {
+            break;
+        }
+        is_near = std::move(leaves);
+    }
+    is_undecided_ = is_undecided_ || std::ranges::find(is_near, true) != is_near.end();
+}
+
+// One round over the nodes; says whether one more can leave for where all is finite.
+bool PolicyIteration::spread_near(const Envelope& envelope, const std::vector<bool>& is_near,
+                                  std::vector<bool>& leaves) {
+    const auto is_finite = [&](PolicyNodeId node) {
+        const std::uint32_t at = envelope.place(node);
+        return at >= envelope.size() || envelope.worth(at) == -kNever;
+    };
+    const auto leads_out = [&](std::uint32_t place, DecisionId decision) {
+        const auto successors = envelope.graph().successors(decision);
+        return !envelope.is_barred(place, decision) &&
+               envelope.worth_by(place, Recursion::Averse, decision) <= envelope.worth(place) + kRadiusMargin &&
+               std::ranges::all_of(successors, [&](auto to) { return is_finite(to) || is_near[envelope.place(to)]; }) &&
+               std::ranges::any_of(successors, [&](auto to) { return is_finite(to) || leaves[envelope.place(to)]; });
+    };
+    bool has_changed = false;
+    for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+        limits_.stop_if_reached();
+        if (is_near[place] && !leaves[place] &&
+            std::ranges::any_of(envelope.graph().decisions_of(envelope.node(place)),
+                                [&](DecisionId decision) { return leads_out(place, decision); })) {
+            leaves[place] = true;
+            has_changed = true;
+        }
+    }
+    return has_changed;
 }
 
 // Where it is allowed to stop, that is finite.

@@ -158,6 +158,27 @@ def test_an_averse_agent_never_retries_for_ever() -> None:
     assert policy(OR_PAY, "neutral").value == pytest.approx(5, rel=1e-9)
 
 
+FIERCE = problem("try", f"{RETRY}\ntry -> (not (p))? hurt try", {**GRIP, "hurt": cost("9")}, "try")
+
+
+@pytest.mark.parametrize("alpha", [math.log(2) - 4e-10, math.log(2), math.log(2) + 4e-10])
+@pytest.mark.parametrize("asked", [ONLY_RETRY, FIERCE])
+def test_a_spectral_radius_of_nearly_1_is_not_decided(asked: Problem, alpha: float) -> None:
+    result = policy(asked, f"averse {alpha!r}")
+    assert (result.status, result.policy) == (Status.GAVE_UP, None)
+    assert "too close to call" in result.reason
+    assert policy(OR_PAY, f"averse {alpha!r}").value == pytest.approx(20, rel=1e-9)
+
+
+@pytest.mark.parametrize("asked", [ONLY_RETRY, FIERCE])
+def test_a_spectral_radius_that_is_not_so_near_is_decided(asked: Problem) -> None:
+    assert policy(asked, f"averse {math.log(2) + 4e-9!r}").status is Status.UNSOLVABLE
+    alpha = math.log(2) - 4e-6
+    half = math.exp(alpha) / 2
+    expected = math.log(half / (1 - half)) / alpha + 3
+    assert policy(asked, f"averse {alpha!r}").value == pytest.approx(expected, rel=1e-6)
+
+
 # ---- 4. not done with probability 1: never read off the value
 
 GAMBLE = {

@@ -74,6 +74,8 @@ def _rows(result: PolicyResult) -> Labelled:
 def _ending(result: PolicyResult) -> str:
     if result.status is Status.UNSOLVABLE:
         return f"unsolvable: {result.reason or 'it is proven that this problem has no policy'}"
+    if result.status is Status.GAVE_UP and result.reason:
+        return f"exhausted: {result.reason}"
     if result.status is not Status.OPTIMAL:
         return ENDINGS[result.status] + (f": {result.reason}" if result.reason else "")
     better = "is more likely to be done" if isinstance(result.objective, Success) else "has a lower value"

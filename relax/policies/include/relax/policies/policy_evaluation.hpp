@@ -13,6 +13,9 @@
 
 namespace relax {
 
+// A spectral radius that differs from 1 by no more is not told from 1.
+inline constexpr double kRadiusMargin = 1e-9;
+
 // What the policy of an envelope is worth at each of its nodes, exactly but for rounding: component by component of its
 // graph, those first that others lead to. A component with a loop is a system of linear equations, in the worths
 // themselves or in their exponentials.

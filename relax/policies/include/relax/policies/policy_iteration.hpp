@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "relax/base/limits.hpp"
 #include "relax/policies/envelope.hpp"
@@ -65,6 +66,8 @@ public:
 
 private:
     void start_finite(Envelope& envelope, Recursion kind);
+    void note_near(const Envelope& envelope, const std::vector<bool>& is_sure);
+    bool spread_near(const Envelope& envelope, const std::vector<bool>& is_near, std::vector<bool>& leaves);
     void stop_where_infinite(Envelope& envelope, Recursion kind);
     void iterate(Envelope& envelope, Recursion kind);
     bool sweep(Envelope& envelope, Recursion kind);
