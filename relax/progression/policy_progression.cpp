@@ -178,12 +178,12 @@ void PolicyProgression::add_decisions(StateId state, NetworkId network, const Oc
         }
         return;
     }
-    for (const MethodId method : problem_.methods_of(occurrence.task)) {
-        if (unconstrained_.size() > 1 || progression_.can_begin(method, state)) {
-            PolicyDecision& decision = decisions.emplace_back();
-            decision.step = {occurrence.index, method};
-            decision.outcomes.push_back(outcome_of(progression_.decompose(state, network, occurrence, method)));
-        }
+    methods_.clear();
+    progression_.add_methods(occurrence.task, unconstrained_.size() == 1, state, methods_);
+    for (const MethodId method : methods_) {
+        PolicyDecision& decision = decisions.emplace_back();
+        decision.step = {occurrence.index, method};
+        decision.outcomes.push_back(outcome_of(progression_.decompose(state, network, occurrence, method)));
     }
 }
 

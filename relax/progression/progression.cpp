@@ -7,35 +7,6 @@
 
 namespace relax {
 
-namespace {
-
-std::optional<ActionId> first_action(const AnalysedProblem& problem, MethodId method, bool in_sequence,
-                                     Limits& limits) {
-    const auto subtasks = problem.method_subtasks[method];
-    const auto ordering = problem.method_ordering[method];
-    std::size_t first = 0;  // if there is only one subtask
-    if (in_sequence && subtasks.size() > 1) {
-        first = problem.sequences(limits)[method].front();
-    } else if (subtasks.size() > 1) {
-        // The pairs are sorted: look for a run that has all the others.
-        std::size_t run = 0;
-        std::size_t at = 0;
-        for (; at < ordering.size() && run + 1 < subtasks.size(); ++at) {
-            run = at > 0 && ordering[at].first == ordering[at - 1].first ? run + 1 : 1;
-        }
-        if (run + 1 < subtasks.size()) {
-            return std::nullopt;
-        }
-        first = ordering[at - 1].first;
-    }
-    if (subtasks.empty() || !(problem.is_primitive(subtasks[first]) || problem.is_chance(subtasks[first]))) {
-        return std::nullopt;
-    }
-    return problem.any_outcome(subtasks[first]);
-}
-
-}  // namespace
-
 Progression::Progression(const AnalysedProblem& problem, const std::vector<bool>& free_actions,
                          const ProgressionOptions& options, Limits& limits)
     : problem_(problem),
@@ -55,10 +26,7 @@ Progression::Progression(const AnalysedProblem& problem, const std::vector<bool>
         relevant_facts_.emplace(problem, limits);
     }
     if (options.skip_dead_methods) {
-        for (const MethodId method : problem.methods()) {
-            limits.stop_if_reached();
-            first_action_.push_back(first_action(problem, method, options.in_sequence, limits));
-        }
+        first_actions_.emplace(problem, options.in_sequence, limits);
     }
 }
 
@@ -96,10 +64,10 @@ void Progression::expand_when_due(StateId state, NetworkId network, std::vector<
             }
             continue;
         }
-        for (const MethodId method : problem_.methods_of(occurrence.task)) {
-            if (!first_action_[method] || transition_.is_applicable(*first_action_[method], states_[state])) {
-                successors.push_back(decompose(state, network, occurrence, method));
-            }
+        live_methods_.clear();
+        first_actions_->add_live(occurrence.task, states_[state], live_methods_);
+        for (const MethodId method : live_methods_) {
+            successors.push_back(decompose(state, network, occurrence, method));
         }
     }
 }
@@ -110,7 +78,7 @@ bool Progression::decompose_at_once(StateId state, NetworkId network, std::vecto
     const auto found = std::ranges::find_if(unconstrained_, [this](const Occurrence& occurrence) {
         return !problem_.is_primitive(occurrence.task) &&
                std::ranges::none_of(problem_.methods_of(occurrence.task),
-                                    [this](MethodId method) { return first_action_[method].has_value(); });
+                                    [this](MethodId method) { return (*first_actions_)[method].has_value(); });
     });
     if (found == unconstrained_.end()) {
         return false;
@@ -180,13 +148,17 @@ void Progression::choose_actions(StateId state, NetworkId network) {
     }
 }
 
-void Progression::find_live_methods(StateId state) {
-    const bool comes_next = unconstrained_.size() == 1;
-    for (const MethodId method : problem_.methods_of(compound_->task)) {
-        if (!comes_next || can_begin(method, state)) {
-            live_methods_.push_back(method);
-        }
+void Progression::add_methods(TaskId task, bool comes_next, StateId state, std::vector<MethodId>& methods) const {
+    if (comes_next && first_actions_) {
+        first_actions_->add_live(task, states_[state], methods);
+        return;
     }
+    const auto all = problem_.methods_of(task);
+    methods.insert(methods.end(), all.begin(), all.end());
+}
+
+void Progression::find_live_methods(StateId state) {
+    add_methods(compound_->task, unconstrained_.size() == 1, state, live_methods_);
 }
 
 NodeView Progression::view(StateId state, NetworkId network) {

@@ -151,6 +151,7 @@ private:
     Branching* branching_ = &heeding_;
     std::vector<Occurrence> unconstrained_;
     std::vector<Occurrence> chosen_;
+    std::vector<MethodId> methods_;
     std::vector<std::uint32_t> uncertain_;  // occurrences
 };
 

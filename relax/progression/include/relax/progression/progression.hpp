@@ -15,6 +15,7 @@
 #include "relax/problem/ground_problem.hpp"
 #include "relax/problem/state.hpp"
 #include "relax/progression/branching.hpp"
+#include "relax/progression/first_actions.hpp"
 #include "relax/progression/relevant_facts.hpp"
 #include "relax/progression/stubborn_set.hpp"
 
@@ -80,11 +81,8 @@ public:
     Successor execute(StateId state, NetworkId network, const Occurrence& occurrence, ActionId action);
     // Whether an action costs and changes nothing in any state, and comes at once.
     bool is_executed_at_once(TaskId task) const { return problem_.is_primitive(task) && is_executed_at_once_[task]; }
-    // False: the method is dead in this state if its first task comes next.
-    bool can_begin(MethodId method, StateId state) const {
-        return first_action_.empty() || !first_action_[method] ||
-               transition_.is_applicable(*first_action_[method], states_[state]);
-    }
+    // Append the methods by which a compound task may be decomposed; where it comes next, those that are not dead.
+    void add_methods(TaskId task, bool comes_next, StateId state, std::vector<MethodId>& methods) const;
     // What heuristics see of a node but for its bound; valid until the next call.
     NodeView view(StateId state, NetworkId network);
 
@@ -121,9 +119,7 @@ private:
     StateRegistry states_;
     std::unique_ptr<TaskNetworks> networks_;
     Branching branching_;
-    // By MethodId: an action that comes before all other subtasks, one of its outcomes if it has several; empty if dead
-    // methods are not to be skipped.
-    std::vector<std::optional<ActionId>> first_action_;
+    std::optional<FirstActions> first_actions_;  // none if dead methods are not to be skipped
     std::optional<StubbornSet> stubborn_set_;
     std::optional<RelevantFacts> relevant_facts_;
     OrderedTasks ordered_tasks_;
