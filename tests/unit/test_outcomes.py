@@ -13,9 +13,10 @@ from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.hddl.reader import read_hddl_text
 from statehtn.model import Decomposition, Plan, Problem, Step
 from statehtn.model.plan_outcome import PlanOutcome
+from statehtn.model.status import Status
 from statehtn.semantics.outcomes import Transitions
 from statehtn.semantics.world import World
-from statehtn.validation import validate_trajectory
+from statehtn.validation import validate_trajectory, validation
 
 DOMAIN = """(define (domain d) (:types block)
   (:predicates (held ?b - block) (wet ?b - block) (broken) (icy) (seen ?b - block))
@@ -178,6 +179,17 @@ def test_plans_that_do_not_say_what_came_count_on_the_likeliest() -> None:
     assert "step 1 (grasp a): it is said to lead there with probability 0.75, and does with 0.5" in str(
         statehtn.validate(problem, too_likely)
     )
+
+
+def test_what_methods_ask_for_may_take_another_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = read("(probabilistic 0.7 (wet ?b) 0.3 (held ?b))")
+    found = statehtn.validate(problem, tried(1))
+    assert (found.valid, found.probability) == (True, 0.3)  # though it likelier becomes wet
+    assert statehtn.validate(problem, [GRASP]).probability == 0.3
+    monkeypatch.setattr(validation, "MOST_RUNS", 1)
+    undecided = statehtn.validate(problem, tried(1))
+    assert (undecided.valid, undecided.stopped) == (False, Status.GAVE_UP)
+    assert "it is a plan in none of the 1 runs of it that are looked at" in str(undecided)
 
 
 def test_chance_alone_has_no_plan() -> None:

@@ -28,6 +28,8 @@ from statehtn.validation.ordering import check_ordering
 from statehtn.validation.trajectories import Price, Trajectories, likeliest, without_unread
 from statehtn.validation.tree import PlanTree
 
+MOST_RUNS = 10_000
+"""Of a plan of actions with several outcomes that are looked at; each differs in what methods ask for."""
 _STEP = re.compile(r"step (\d+) \([^()]*\): ")
 
 
@@ -168,11 +170,14 @@ class _Judge:
         is_first_alone = bool(self._matching.reasons) or not depends
         runs = Trajectories(self._plan.steps, self._world, self._seen, price, is_first_alone)
         best: Validation | None = None
-        for outcomes in runs:
+        for count, outcomes in enumerate(runs, 1):
             judged = self.judged([(outcome.added, outcome.deleted) for outcome in outcomes], as_stated=True)
             if judged.valid:
                 return judged
             best = best or judged
+            if count == MOST_RUNS:
+                reason = f"it is a plan in none of the {MOST_RUNS} runs of it that are looked at, the best ones"
+                return replace(best, reasons=(reason, *best.reasons), stopped=Status.GAVE_UP)
         if best is not None:
             return best
         return Validation(told_once((runs.why_not, *self._matching.reasons)), **_known_of(runs.farthest))
