@@ -4,7 +4,8 @@
 PYTHON ?= python3
 VENV := .venv
 RUN := $(VENV)/bin/python
-PIP := $(RUN) -m pip --disable-pip-version-check
+# Modules are compiled when they are first imported: most of what is installed never is.
+INSTALL := $(RUN) -m pip --disable-pip-version-check install --no-compile
 # Directories are listed, too: their time changes when a file is added or removed.
 CORE_SOURCES := $(shell find relax)
 # The sessions of noxfile.py run in this environment here, not in ones of their own.
@@ -52,17 +53,17 @@ clean:  ## remove everything that was built, the virtual environment included
 
 $(VENV)/.created: | check-python
 	$(PYTHON) -m venv $(VENV)
-	@$(PIP) install --quiet --upgrade 'pip>=25.1'
+	@$(INSTALL) --quiet --upgrade 'pip>=25.1'
 	@touch $@
 
 # A dependency group of pyproject.toml.
 $(VENV)/.%-tools: pyproject.toml $(VENV)/.created
-	$(PIP) install --quiet --group $*
+	$(INSTALL) --quiet --group $*
 	@touch $@
 
 # The model checker that some tests ask. It has no wheel for every machine, and without one those tests are skipped.
 $(VENV)/.storm: pyproject.toml $(VENV)/.created
-	@$(PIP) install --quiet --only-binary :all: 'stormpy>=2' || \
+	@$(INSTALL) --quiet --only-binary :all: 'stormpy>=2' || \
 	  echo "no wheel of stormpy can be had here: what Storm would check is skipped" >&2
 	@touch $@
 
@@ -75,7 +76,7 @@ STEPS := awk -F '[][/ ]+' '/^ *\[[0-9]+\/[0-9]+\] / { part = int(10 * $$2 / $$3)
 $(VENV)/.installed: pyproject.toml $(CORE_SOURCES) $(VENV)/.build-tools | check-compiler
 	@echo "building the core; the first time this takes a minute or two"
 	@set -o pipefail; \
-	$(PIP) install --verbose --no-build-isolation --editable . 2>&1 | tee $(VENV)/build.log | $(STEPS) terminal=$$(test -t 1 && echo 1) || { \
+	$(INSTALL) --verbose --no-build-isolation --editable . 2>&1 | tee $(VENV)/build.log | $(STEPS) terminal=$$(test -t 1 && echo 1) || { \
 	  tail -n 40 $(VENV)/build.log >&2; \
 	  echo "error: the core was not built; all that was said stands in $(VENV)/build.log" >&2; exit 1; }
 	@touch $@
