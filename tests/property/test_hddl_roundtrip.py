@@ -40,10 +40,13 @@ from statehtn.model import (
     TypeHierarchy,
 )
 from statehtn.model.cost.expressions import constant_value
+from tests.strategies import between, pick
 
 KINDS = ("t0", "t1", "t2", "t3")
 CONSTANTS = ("c0", "t1")  # some have the name of a type, a predicate or a task
 OBJECTS = ("o0", "p0", "task0")
+TYPES = st.lists(st.sampled_from(KINDS), min_size=1, max_size=2, unique=True)
+PARAMETER_TYPES = st.lists(st.sampled_from((*KINDS, "object")), min_size=1, max_size=2, unique=True)
 LABELS = ("s0", "task0", "t0", "x|y")
 NUMBERS = st.one_of(
     st.integers(0, 10**6).map(Fraction),
@@ -75,164 +78,149 @@ class Names:
         return variables + [name for name, kind in self.objects.items() if self.types.is_subtype(kind, types)]
 
 
-@st.composite
 def parameters(draw: st.DrawFn, prefix: str, most: int = 3) -> tuple[Parameter, ...]:
-    kinds = st.lists(st.sampled_from((*KINDS, "object")), min_size=1, max_size=2, unique=True)
-    drawn = draw(st.lists(kinds, max_size=most))
+    drawn = [draw(PARAMETER_TYPES) for _ in range(between(draw, 0, most))]
     return tuple(Parameter(f"?{prefix}{index}", tuple(types)) for index, types in enumerate(drawn))
 
 
-@st.composite
 def signatures(draw: st.DrawFn, prefix: str, most: int = 3) -> dict[str, Signature]:
-    drawn = draw(st.lists(parameters("x", 2), min_size=1, max_size=most))
+    drawn = [parameters(draw, "x", 2) for _ in range(between(draw, 1, most))]
     return {f"{prefix}{index}": Signature(f"{prefix}{index}", found) for index, found in enumerate(drawn)}
 
 
-@st.composite
 def arguments(draw: st.DrawFn, names: Names, declared: dict[str, Signature]) -> tuple[str, ...] | None:
     """Draw a name and arguments that it allows; None where there are none."""
-    signature = draw(st.sampled_from(list(declared.values())))
+    signature = pick(draw, list(declared.values()))
     choices = [names.terms(parameter.types) for parameter in signature.parameters]
-    return (signature.name, *(draw(st.sampled_from(terms)) for terms in choices)) if all(choices) else None
+    return (signature.name, *(pick(draw, terms) for terms in choices)) if all(choices) else None
 
 
-@st.composite
 def formulas(draw: st.DrawFn, names: Names, depth: int = 3, constraint: bool = False) -> Formula:
     everything = [variable.name for variable in names.variables] + list(names.objects)
-    form = draw(
-        st.sampled_from(("atom", "equals", "type", "not", "and", "or", "exists", "forall")[: 8 if depth else 3])
-    )
+    form = pick(draw, ("atom", "equals", "type", "not", "and", "or", "exists", "forall")[: 8 if depth else 3])
     if constraint and form in ("atom", "exists", "forall"):
         form = "equals"
-    inner = formulas(names, depth - 1, constraint)
     match form:
         case "atom":
-            found = draw(arguments(names, names.predicates))
+            found = arguments(draw, names, names.predicates)
             return Atom(found[0], found[1:]) if found else TRUE
         case "equals" | "type" if not everything:
             return TRUE
         case "equals":
-            return Equals(draw(st.sampled_from(everything)), draw(st.sampled_from(everything)))
+            return Equals(pick(draw, everything), pick(draw, everything))
         case "type":
-            types = draw(st.lists(st.sampled_from(KINDS), min_size=1, max_size=2, unique=True))
-            return OfType(draw(st.sampled_from(everything)), tuple(types))
+            types = draw(TYPES)
+            return OfType(pick(draw, everything), tuple(types))
         case "not":
-            return Not(draw(inner))
+            return Not(formulas(draw, names, depth - 1, constraint))
         case "and" | "or":
-            operands = tuple(draw(st.lists(inner, max_size=3)))
+            operands = tuple(formulas(draw, names, depth - 1, constraint) for _ in range(between(draw, 0, 3)))
             return And(operands) if form == "and" else Or(operands)
-    bound = draw(parameters(f"q{depth}"))
-    body = draw(formulas(names.inside(bound), depth - 1))
+    bound = parameters(draw, f"q{depth}")
+    body = formulas(draw, names.inside(bound), depth - 1)
     return Exists(bound, body) if form == "exists" else Forall(bound, body)
 
 
-@st.composite
 def expressions(draw: st.DrawFn, names: Names, depth: int = 2) -> Expression:
-    form = draw(st.sampled_from(("number", "number", "function", "+", "-", "*")[: 6 if depth else 3]))
+    form = pick(draw, ("number", "number", "function", "+", "-", "*")[: 6 if depth else 3])
     if form == "number":
         return Number(draw(NUMBERS))
     if form == "function":
-        found = draw(arguments(names, names.functions))
+        found = arguments(draw, names, names.functions)
         return FunctionTerm(found[0], found[1:]) if found else Number(Fraction(1))
-    return Arithmetic(form, tuple(draw(st.lists(expressions(names, depth - 1), min_size=1, max_size=3))))
+    return Arithmetic(form, tuple(expressions(draw, names, depth - 1) for _ in range(between(draw, 1, 3))))
 
 
-@st.composite
 def costs(draw: st.DrawFn, names: Names) -> Expression:
     """Draw an expression that is not a negative constant."""
-    cost = draw(expressions(names))
+    cost = expressions(draw, names)
     return Number(Fraction(0)) if (constant_value(cost) or 0) < 0 else cost
 
 
-@st.composite
 def probabilities_of_branches(draw: st.DrawFn, names: Names) -> list[Expression]:
-    weights = draw(st.lists(st.integers(1, 9), min_size=1, max_size=3))
+    weights = [between(draw, 1, 9) for _ in range(between(draw, 1, 3))]
     probabilities: list[Expression] = [Number(Fraction(weight, sum(weights))) for weight in weights]
-    if draw(st.booleans()) and (found := draw(arguments(names, names.functions))):
+    if draw(st.booleans()) and (found := arguments(draw, names, names.functions)):
         probabilities = [FunctionTerm(found[0], found[1:]), *probabilities[1:]]
     return probabilities
 
 
-@st.composite
 def cost_blocks(draw: st.DrawFn, names: Names) -> CostBlock:
-    bound = draw(parameters("b", 1))
+    bound = parameters(draw, "b", 1)
     inner = names.inside(bound)
-    condition = draw(st.one_of(st.just(TRUE), formulas(inner, 1)))
-    probabilities = draw(probabilities_of_branches(inner))
-    return CostBlock(tuple((probability, draw(costs(inner))) for probability in probabilities), condition, bound)
+    condition = formulas(draw, inner, 1) if draw(st.booleans()) else TRUE
+    probabilities = probabilities_of_branches(draw, inner)
+    return CostBlock(tuple((probability, costs(draw, inner)) for probability in probabilities), condition, bound)
 
 
-@st.composite
 def effects(draw: st.DrawFn, names: Names) -> list[Effect]:
-    bound = draw(parameters("e", 1))
-    found = draw(arguments(names.inside(bound), names.predicates))
+    bound = parameters(draw, "e", 1)
+    found = arguments(draw, names.inside(bound), names.predicates)
     if not found:
         return []
-    condition = draw(st.one_of(st.just(TRUE), formulas(names.inside(bound), 1)))
+    condition = formulas(draw, names.inside(bound), 1) if draw(st.booleans()) else TRUE
     return [Effect(Atom(found[0], found[1:]), draw(st.booleans()), condition, bound)]
 
 
-@st.composite
 def outcome_blocks(draw: st.DrawFn, names: Names) -> list[OutcomeBlock]:
     """Draw a block of outcomes; nothing where none of them would change a fact."""
-    bound = draw(parameters("k", 1))
+    bound = parameters(draw, "k", 1)
     inner = names.inside(bound)
-    condition = draw(st.one_of(st.just(TRUE), formulas(inner, 1)))
+    condition = formulas(draw, inner, 1) if draw(st.booleans()) else TRUE
     outcomes = []
-    for probability in draw(probabilities_of_branches(inner)):
-        changes = [effect for some in draw(st.lists(effects(inner), max_size=2)) for effect in some]
-        outcomes.append(Outcome(probability, tuple(changes), tuple(draw(st.lists(cost_blocks(inner), max_size=1)))))
+    for probability in probabilities_of_branches(draw, inner):
+        changes = [effect for _ in range(between(draw, 0, 2)) for effect in effects(draw, inner)]
+        blocks = tuple(cost_blocks(draw, inner) for _ in range(between(draw, 0, 1)))
+        outcomes.append(Outcome(probability, tuple(changes), blocks))
     changed = any(outcome.effects for outcome in outcomes)
     return [OutcomeBlock(tuple(outcomes), condition, bound)] if changed else []
 
 
-@st.composite
 def networks(draw: st.DrawFn, names: Names) -> TaskNetwork:
-    found = [task for task in draw(st.lists(arguments(names, names.tasks), max_size=4)) if task]
+    found = [task for _ in range(between(draw, 0, 4)) if (task := arguments(draw, names, names.tasks))]
     subtasks = tuple(Subtask(label, task[0], task[1:]) for label, task in zip(LABELS, found, strict=False))
     pairs = [(i, j) for i in range(len(found)) for j in range(i + 1, len(found))]
     chain = [(i, i + 1) for i in range(len(found) - 1)]
     ordering = draw(st.one_of(st.just(chain), st.lists(st.sampled_from(pairs), unique=True))) if pairs else []
-    constraints = draw(st.one_of(st.just(TRUE), formulas(names, 2, constraint=True)))
+    constraints = formulas(draw, names, 2, constraint=True) if draw(st.booleans()) else TRUE
     return TaskNetwork(subtasks, tuple(ordering), constraints)
 
 
-@st.composite
 def domains(draw: st.DrawFn) -> tuple[Domain, Names]:
     above = [("object",), (), ("t0",), ("t0", "t1")]
-    types = TypeHierarchy({kind: draw(st.sampled_from(above[: index + 1])) for index, kind in enumerate(KINDS)})
-    constants = dict(zip(CONSTANTS, draw(st.lists(st.sampled_from(KINDS), max_size=2)), strict=False))
-    predicates, functions, compound = draw(signatures("p")), draw(signatures("f")), draw(signatures("task"))
-    primitive = draw(signatures("act", 2))
+    types = TypeHierarchy({kind: pick(draw, above[: index + 1]) for index, kind in enumerate(KINDS)})
+    constants = dict(zip(CONSTANTS, [pick(draw, KINDS) for _ in range(between(draw, 0, 2))], strict=False))
+    predicates, functions, compound = signatures(draw, "p"), signatures(draw, "f"), signatures(draw, "task")
+    primitive = signatures(draw, "act", 2)
     names = Names(types, constants, predicates, functions, {**compound, **primitive})
     actions = {}
     for name, signature in primitive.items():
         inner = names.inside(signature.parameters)
-        drawn = [effect for some in draw(st.lists(effects(inner), max_size=3)) for effect in some]
-        blocks = tuple(draw(st.lists(cost_blocks(inner), max_size=2)))
-        chosen = tuple(block for some in draw(st.lists(outcome_blocks(inner), max_size=2)) for block in some)
-        actions[name] = Action(name, signature.parameters, draw(formulas(inner)), tuple(drawn), blocks, chosen)
+        drawn = [effect for _ in range(between(draw, 0, 3)) for effect in effects(draw, inner)]
+        blocks = tuple(cost_blocks(draw, inner) for _ in range(between(draw, 0, 2)))
+        chosen = tuple(block for _ in range(between(draw, 0, 2)) for block in outcome_blocks(draw, inner))
+        actions[name] = Action(name, signature.parameters, formulas(draw, inner), tuple(drawn), blocks, chosen)
     methods = {}
-    for index in range(draw(st.integers(0, 2))):
-        bound = draw(parameters("m"))
+    for index in range(between(draw, 0, 2)):
+        bound = parameters(draw, "m")
         inner = names.inside(bound)
-        if head := draw(arguments(inner, compound)):
-            method = Method(f"m{index}", bound, head[0], head[1:], draw(networks(inner)), draw(formulas(inner)))
+        if head := arguments(draw, inner, compound):
+            method = Method(f"m{index}", bound, head[0], head[1:], networks(draw, inner), formulas(draw, inner))
             methods[method.name] = method
     return Domain("d", types, constants, predicates, functions, compound, actions, methods), names
 
 
 @st.composite
 def problems(draw: st.DrawFn) -> Problem:
-    domain, names = draw(domains())
-    objects = dict(zip(OBJECTS, draw(st.lists(st.sampled_from(KINDS), max_size=3)), strict=False))
+    domain, names = domains(draw)
+    objects = dict(zip(OBJECTS, [pick(draw, KINDS) for _ in range(between(draw, 0, 3))], strict=False))
     ground = Names(names.types, {**names.objects, **objects}, names.predicates, names.functions, names.tasks)
-    bound = draw(parameters("h", 2))
-    facts = frozenset(fact for fact in draw(st.lists(arguments(ground, ground.predicates), max_size=5)) if fact)
-    keys = {key for key in draw(st.lists(arguments(ground, ground.functions), max_size=4)) if key}
-    values = {key: draw(NUMBERS) * draw(st.sampled_from((1, -1))) for key in sorted(keys)}
-    network = draw(networks(ground.inside(bound)))
-    return Problem("p", domain, objects, bound, network, facts, values, draw(formulas(ground)))
+    bound = parameters(draw, "h", 2)
+    facts = frozenset(fact for _ in range(between(draw, 0, 5)) if (fact := arguments(draw, ground, ground.predicates)))
+    keys = {key for _ in range(between(draw, 0, 4)) if (key := arguments(draw, ground, ground.functions))}
+    values = {key: draw(NUMBERS) * pick(draw, (1, -1)) for key in sorted(keys)}
+    network = networks(draw, ground.inside(bound))
+    return Problem("p", domain, objects, bound, network, facts, values, formulas(draw, ground))
 
 
 @settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
