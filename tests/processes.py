@@ -25,7 +25,7 @@ def start(*arguments: str, **options: object) -> Process:
     return Process(command, **streams)
 
 
-def wait_until_signals_are_caught(process: subprocess.Popen[str], seconds: float = 20.0) -> None:
+def wait_until_signals_are_caught(process: subprocess.Popen[str], seconds: float = 120.0) -> None:
     """Wait until the process has its handlers: on a busy machine its start can take seconds."""
     status = Path(f"/proc/{process.pid}/status")
     deadline = time.monotonic() + seconds

@@ -121,7 +121,7 @@ def fast_downward(model: Any, folder: Path) -> int | None:
     heuristic = "hmax()" if conditional else "lmcut()"  # its lmcut has no conditional effects
     command = [sys.executable, driver, "--search-time-limit", "5s", "domain.pddl", "problem.pddl"]
     command += ["--search", f"astar({heuristic})"]
-    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
+    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120)
     if run.returncode == 23:  # the time limit: methods cost nothing, and A* tries them in every order
         raise GaveUp
     if run.returncode in (10, 11, 12):

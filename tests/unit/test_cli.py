@@ -102,7 +102,7 @@ def test_a_signal_ends_in_a_result(files: Files, tmp_path: Path, number: signal.
     pipe.write_text(Path(files["endless"]).read_text())  # waits until the pipe is read: the command line runs
     time.sleep(1)
     process.send_signal(number)
-    output, errors = process.communicate(timeout=30)
+    output, errors = process.communicate(timeout=120)
     assert process.returncode == 130
     assert errors == ""
     found = json.loads(output)
@@ -129,7 +129,7 @@ def test_a_signal_while_the_program_is_loaded_is_one_line(number: signal.Signals
     )
     wait_until_signals_are_caught(process)
     process.send_signal(number)
-    assert process.communicate(timeout=30) == ("", "interrupted\n")
+    assert process.communicate(timeout=120) == ("", "interrupted\n")
     assert process.returncode == ExitCode.INTERRUPTED
 
 
@@ -181,7 +181,7 @@ def test_a_full_disk_loses_no_plan(files: Files, capsys: pytest.CaptureFixture[s
     assert captured.err.startswith("error: cannot write '/dev/full'")
     with open("/dev/full", "w") as full:
         process = start("plan", files["domain"], files["problem"], stdout=full)
-        _, errors = process.communicate(timeout=20)
+        _, errors = process.communicate(timeout=120)
     assert process.returncode == 74
     assert errors.count("\n") == 1
 
@@ -191,7 +191,7 @@ def test_a_reader_that_goes_away_is_no_error(files: Files) -> None:
     os.close(reading)
     with os.fdopen(writing, "w") as nobody:
         process = start("plan", files["domain"], files["problem"], stdout=nobody)
-        _, errors = process.communicate(timeout=20)
+        _, errors = process.communicate(timeout=120)
     assert process.returncode == 0
     assert errors == ""
 
@@ -199,7 +199,7 @@ def test_a_reader_that_goes_away_is_no_error(files: Files) -> None:
 def test_names_outside_the_encoding_are_printed_somehow(files: Files) -> None:
     environment = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     process = start("plan", files["domain"], files["problem"], env=environment)
-    output, errors = process.communicate(timeout=20)
+    output, errors = process.communicate(timeout=120)
     assert (process.returncode, errors) == (0, "")
     assert "(take-car)" in output
 

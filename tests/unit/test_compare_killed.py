@@ -17,8 +17,8 @@ from statehtn.cli import main
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_planner import ENDLESS_DOMAIN, ENDLESS_PROBLEM
 
-EASY = 6
-PATIENCE = 20.0
+EASY = 5
+PATIENCE = 120.0
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def check_resumed(tree: Path, before: int) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/self/cmdline").exists(), reason="needs /proc to look for child processes")
-@pytest.mark.parametrize("rows_before", [0, 1, 4])
+@pytest.mark.parametrize("rows_before", [0, 3])
 def test_killed_runner(tree: Path, rows_before: int) -> None:
     process = start(tree)
     wait_for(lambda: len(rows(tree)) >= rows_before and children(tree))

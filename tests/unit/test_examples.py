@@ -22,7 +22,7 @@ def test_the_vehicle_from_python_is_the_vehicle_from_hddl() -> None:
 
 def test_the_vehicle_plans_for_three_agents() -> None:
     run = subprocess.run(
-        [sys.executable, str(ROOT / "examples" / "vehicle.py")], capture_output=True, text=True, check=True, timeout=60
+        [sys.executable, str(ROOT / "examples" / "vehicle.py")], capture_output=True, text=True, check=True, timeout=120
     )
     assert run.stdout.count("status: optimal") == 3
     in_all = [line.split()[2:] for line in run.stdout.splitlines() if "in all" in line]
@@ -37,7 +37,7 @@ def test_the_demo_is_what_the_readme_shows() -> None:
         capture_output=True,
         text=True,
         check=True,
-        timeout=60,
+        timeout=120,
     )
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     shown = next(block.text for block in blocks(readme) if "for averse 0.9" in block.text)

@@ -99,7 +99,7 @@ def test_quiet_plans_are_utf_8_whatever_the_encoding(tmp_path: Path, command: li
     (tmp_path / "p.hddl").write_text("(define (problem p) (:domain d) (:htn :subtasks (fährt)) (:init))")
     arguments = [sys.executable, "-m", "statehtn", *command, "d.hddl", "p.hddl", "--quiet"]
     environment = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
-    ended = subprocess.run(arguments, cwd=tmp_path, env=environment, capture_output=True, timeout=60, check=False)
+    ended = subprocess.run(arguments, cwd=tmp_path, env=environment, capture_output=True, timeout=120, check=False)
     assert (ended.returncode, ended.stdout.decode()) == (0, "(fährt)\n")
 
 

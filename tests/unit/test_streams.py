@@ -27,7 +27,7 @@ def inputs(tmp_path: Path) -> str:
 
 def shell(command: str) -> tuple[int, str, str]:
     """Run a shell's command; returns its exit code and what it printed."""
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, timeout=30)
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, timeout=120)
     return done.returncode, done.stdout, done.stderr
 
 
