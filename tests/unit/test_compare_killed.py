@@ -101,7 +101,7 @@ def test_killed_runner(tree: Path, rows_before: int) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupted_runner(tree: Path, number: signal.Signals) -> None:
     process = start(tree)
-    wait_for(lambda: len(rows(tree)) >= 2)
+    wait_for(lambda: rows(tree))
     process.send_signal(number)
     output, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130
@@ -115,7 +115,7 @@ def test_interrupted_runner(tree: Path, number: signal.Signals) -> None:
 @pytest.mark.skipif(not Path("/proc/self/cmdline").exists(), reason="needs /proc to look for child processes")
 def test_an_interrupted_child_counts_for_nothing(tree: Path) -> None:
     process = start(tree)
-    wait_for(lambda: len(rows(tree)) >= 2)
+    wait_for(lambda: rows(tree) and children(tree / "b"))
     (child,) = children(tree / "b")
     os.kill(int(child), signal.SIGTERM)
     process.communicate(timeout=PATIENCE)
