@@ -14,6 +14,10 @@ constexpr const char* kCompiler = "an unknown compiler";
 
 NB_MODULE(_relax, module) {
     module.doc() = "The compiled core of statehtn: grounding, heuristics and search.";
+#ifdef NDEBUG
+    // What a daemon thread holds when the interpreter ends is never freed, which is no fault that its user could mend.
+    nanobind::set_leak_warnings(false);
+#endif
     module.def("compiler", [] { return kCompiler; }, "By what the core was compiled.");
     bind_lifted_problem(module);
     bind_ground_problem(module);
