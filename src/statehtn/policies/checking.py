@@ -30,6 +30,8 @@ MOST_STATES = 2_000
 """In which decisions are checked: a second or two."""
 MOST_RUNS = 50
 """Whose decompositions are checked."""
+MOST_FACTS = 2_000_000
+"""Of the states in which decisions are checked together, and of those of the runs: what large states would take."""
 TOLERANCE = 1e-9
 UNITS = 256  # states between two looks at the limits
 
@@ -81,12 +83,13 @@ def _check_decisions(policy: Policy, seen: State, limits: Limits) -> tuple[int, 
     """Check decisions in the states in which they may be taken; return in how many, and whether these are all."""
     transitions = Transitions(World(policy.problem, limits), seen)
     start = 0, policy.problem.initial_state
-    known, pending, count = {start}, deque([start]), 0
-    while pending and count < MOST_STATES:
+    known, pending, count, looked = {start}, deque([start]), 0, 0
+    while pending and count < MOST_STATES and looked < MOST_FACTS:
         if count % UNITS == 0:
             limits.check()
-        count += 1
         index, facts = pending.popleft()
+        count += 1
+        looked += len(facts)
         for follower in _followers(policy, index, facts, transitions, seen):
             if follower not in known:
                 known.add(follower)
@@ -169,12 +172,12 @@ def _check_runs(policy: Policy, seen: State, limits: Limits) -> tuple[int, bool]
     transitions = Transitions(World(policy.problem, limits), seen)
     there, onwards = _ways_there(policy), _ways_on(policy)
     taken = bytearray(len(flat.successors))
-    runs = 0
+    runs = looked = 0
     for node in range(len(flat)):
         for branch in flat.branches(node):
             if taken[branch] or flat.successors[branch] not in onwards:
                 continue
-            if runs == MOST_RUNS:
+            if runs == MOST_RUNS or looked > MOST_FACTS:
                 return runs, False
             path = [*_path_to(node, there), branch]
             at = flat.successors[branch]
@@ -185,6 +188,7 @@ def _check_runs(policy: Policy, seen: State, limits: Limits) -> tuple[int, bool]
                 taken[passed] = True
             _check_run(policy, path, transitions, seen, limits)
             runs += 1
+            looked += len(path) * len(policy.problem.initial_state)
     return runs, True
 
 
