@@ -99,7 +99,7 @@ def sanitize(session: nox.Session) -> None:
 @nox.session
 def tidy(session: nox.Session) -> None:
     """Run clang-tidy over the core, on all cores (some minutes); arguments are the files to look at."""
-    install(session, "build", "lint")
+    install(session, "build", "tidy")
     with session.chdir("relax"):
         session.run("cmake", "--preset", "dev", silent=True)
     own = (path for path in Path("relax").glob("*/*.cpp") if path.parent.name not in ("bindings", "tests"))
