@@ -18,6 +18,7 @@ from statehtn.model import Problem
 from statehtn.risk import Utility
 from tests.brute_force import optimal_risk_cost
 from tests.differential.oracles import LIMITS, close_to, must_cost, must_have_ended, solve
+from tests.shares import share_of_examples
 from tests.strategies import grounding_switches, problems, utilities
 
 DOMAINS = Path(__file__).parents[2] / "domains"
@@ -57,6 +58,7 @@ def test_optimum_of_partially_ordered_problems(problem: Problem, utility: Utilit
 
 @pytest.mark.parametrize("checks_preconditions", [True, False])
 @pytest.mark.parametrize("heuristic", TAKES["plan", "astar"])
+@share_of_examples(2)  # for each heuristic
 @given(problem=problems(), utility=utilities(), switches=grounding_switches())
 def test_refinements_keep_the_optimum(
     checks_preconditions: bool, heuristic: str, problem: Problem, utility: Utility, switches: GroundingSwitches
