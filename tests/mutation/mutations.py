@@ -94,8 +94,15 @@ MUTATIONS = [
     Mutation(
         "dead methods: a first action is next although other tasks are unconstrained",
         "relax/progression/progression.cpp",
-        "const bool comes_next = unconstrained_.size() == 1;",
-        "const bool comes_next = !unconstrained_.empty();",
+        "add_methods(compound_->task, unconstrained_.size() == 1, state, live_methods_);",
+        "add_methods(compound_->task, true, state, live_methods_);",
+    ),
+    Mutation(
+        "dead methods: only the first group of a task's methods is looked at",
+        "relax/progression/first_actions.cpp",
+        "for (const Group& group : groups_[groups - 1]) {",
+        "for (const Group& group : std::span(groups_[groups - 1]).first(1)) {",
+        ("tests/unit/test_many_methods.py",),
     ),
     Mutation(
         "potential: a list of tasks starts with its last one",
