@@ -74,6 +74,8 @@ public:
         const auto [begin, size] = bounds(decision);
         return {weights_.data() + begin, size};
     }
+    // The place of a decision's first outcome among those of all decisions; a node's decisions follow each other.
+    std::size_t first_outcome(DecisionId decision) const { return bounds(decision).first; }
     double constant(DecisionId decision) const { return constants_[decision]; }
     double cost(DecisionId decision) const { return costs_[decision]; }
 

@@ -23,7 +23,8 @@ enum class Outside : std::uint8_t {
 };
 
 // Some expanded nodes, and a policy on them with what its decisions make them worth. Members have places: their numbers
-// in the order in which they were given, best with successors first.
+// in the order in which they were given, best with successors first. The nodes outside to which decisions lead have the
+// places after these.
 class Envelope {
 public:
     explicit Envelope(const DecisionGraph& graph) : graph_(graph) {}
@@ -31,10 +32,7 @@ public:
     // Take other members, none of them done, with their choices in the graph.
     void assign(std::span<const PolicyNodeId> members, Outside outside);
     // The same members, as if stopping anywhere were worth so much.
-    void set_outside(Outside outside, const SegmentedArray<double>* given = nullptr) {
-        outside_ = outside;
-        given_ = given;
-    }
+    void set_outside(Outside outside, const SegmentedArray<double>* given = nullptr);
     Outside outside() const { return outside_; }
     void set_stops(double worth) { stops_.assign(size(), worth); }
     void set_stop(std::uint32_t place, double worth) { stops_[place] = worth; }
@@ -70,9 +68,9 @@ public:
     }
     // Of a decision, and of stopping.
     double worth_by(std::uint32_t place, Recursion kind, DecisionId decision) const {
-        return decision == kStop
-                   ? stops_[place]
-                   : worth_of_decision(graph_, kind, decision, [this](PolicyNodeId node) { return worth_of(node); });
+        return decision == kStop ? stops_[place]
+                                 : worth_of_decision(graph_, kind, decision, targets(place, decision),
+                                                     [this](std::uint32_t to) { return worths_[to]; });
     }
 
     // Decisions that are not to be taken.
@@ -81,18 +79,10 @@ public:
         return !barred_.empty() && barred_[first_[place] + (decision - graph_[members_[place]].first)];
     }
 
-    // The places to which the choice leads, as StrongComponents takes them.
-    class Row {
-    public:
-        Row(const Envelope& envelope, std::span<const PolicyNodeId> nodes) : envelope_(envelope), nodes_(nodes) {}
-        std::size_t size() const { return nodes_.size(); }
-        std::uint32_t operator[](std::size_t at) const { return envelope_.place(nodes_[at]); }
-
-    private:
-        const Envelope& envelope_;
-        std::span<const PolicyNodeId> nodes_;
-    };
-    Row next(std::uint32_t place) const { return {*this, successors(choices_[place])}; }
+    // The places to which the choice leads; from `size()` on they are outside.
+    std::span<const std::uint32_t> next(std::uint32_t place) const {
+        return choices_[place] == kStop ? std::span<const std::uint32_t>{} : targets(place, choices_[place]);
+    }
     std::span<const PolicyNodeId> successors(DecisionId decision) const {
         return decision == kStop ? std::span<const PolicyNodeId>{} : graph_.successors(decision);
     }
@@ -100,12 +90,22 @@ public:
 private:
     static constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
 
+    std::span<const std::uint32_t> targets(std::uint32_t place, DecisionId decision) const {
+        const std::size_t begin = first_target_[place] + (graph_.first_outcome(decision) - first_outcome_[place]);
+        return {targets_.data() + begin, graph_.weights(decision).size()};
+    }
+    void find_targets();
+
     const DecisionGraph& graph_;
     Outside outside_ = Outside::Lower;
     const SegmentedArray<double>* given_ = nullptr;
-    FlatArray<std::uint32_t> places_;  // by node
+    FlatArray<std::uint32_t> places_;  // by node; kOutside where no decision leads to it either
     std::vector<PolicyNodeId> members_;
-    std::vector<double> worths_;
+    std::vector<PolicyNodeId> around_;        // nodes outside, in the order of their places
+    std::vector<double> worths_;              // also of those
+    std::vector<std::uint32_t> targets_;      // by outcome of a member's decisions
+    std::vector<std::size_t> first_target_;   // by place
+    std::vector<std::size_t> first_outcome_;  // by place, in the graph
     std::vector<double> stops_;
     std::vector<DecisionId> choices_;
     std::vector<bool> barred_;  // by decision of a member; empty while none is

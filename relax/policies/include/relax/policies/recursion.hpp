@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "relax/policies/decision_graph.hpp"
 
@@ -27,10 +28,9 @@ enum class Recursion : std::uint8_t { Expected, Averse, Seeking, LogExpected, Ex
 
 namespace recursion {
 
-template <typename WorthOf>
-double expected(const DecisionGraph& graph, double constant, DecisionId decision, WorthOf worth_of) {
-    const auto successors = graph.successors(decision);
-    const auto weights = graph.weights(decision);
+template <typename Successor, typename WorthOf>
+double expected(double constant, std::span<const double> weights, std::span<const Successor> successors,
+                WorthOf worth_of) {
     double sum = constant;
     for (std::size_t at = 0; at < successors.size(); ++at) {
         const double worth = worth_of(successors[at]);
@@ -44,10 +44,9 @@ double expected(const DecisionGraph& graph, double constant, DecisionId decision
 
 // `sign`: 1 for averse agents, -1 for those that seek risk. The constant, and what a successor is worth, may be
 // -infinity.
-template <typename WorthOf>
-double exponential(const DecisionGraph& graph, double sign, double constant, DecisionId decision, WorthOf worth_of) {
-    const auto successors = graph.successors(decision);
-    const auto weights = graph.weights(decision);
+template <typename Successor, typename WorthOf>
+double exponential(double sign, double constant, std::span<const double> weights, std::span<const Successor> successors,
+                   WorthOf worth_of) {
     double largest = constant;
     for (std::size_t at = 0; at < successors.size(); ++at) {
         const double worth = worth_of(successors[at]);
@@ -68,20 +67,28 @@ double exponential(const DecisionGraph& graph, double sign, double constant, Dec
 
 }  // namespace recursion
 
-template <typename WorthOf>
-double worth_of_decision(const DecisionGraph& graph, Recursion kind, DecisionId decision, WorthOf worth_of) {
+// `successors`: those of the decision, in order, by whatever `worth_of` knows them.
+template <typename Successor, typename WorthOf>
+double worth_of_decision(const DecisionGraph& graph, Recursion kind, DecisionId decision,
+                         std::span<const Successor> successors, WorthOf worth_of) {
+    const auto weights = graph.weights(decision);
     switch (kind) {
         case Recursion::Expected:
-            return recursion::expected(graph, graph.constant(decision), decision, worth_of);
+            return recursion::expected(graph.constant(decision), weights, successors, worth_of);
         case Recursion::Averse:
-            return recursion::exponential(graph, 1, -kNever, decision, worth_of);
+            return recursion::exponential(1, -kNever, weights, successors, worth_of);
         case Recursion::Seeking:
-            return recursion::exponential(graph, -1, -kNever, decision, worth_of);
+            return recursion::exponential(-1, -kNever, weights, successors, worth_of);
         case Recursion::LogExpected:
-            return recursion::exponential(graph, 1, graph.constant(decision), decision, worth_of);
+            return recursion::exponential(1, graph.constant(decision), weights, successors, worth_of);
         default:
-            return recursion::expected(graph, graph.cost(decision), decision, worth_of);
+            return recursion::expected(graph.cost(decision), weights, successors, worth_of);
     }
+}
+
+template <typename WorthOf>
+double worth_of_decision(const DecisionGraph& graph, Recursion kind, DecisionId decision, WorthOf worth_of) {
+    return worth_of_decision(graph, kind, decision, graph.successors(decision), worth_of);
 }
 
 }  // namespace relax
