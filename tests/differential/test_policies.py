@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 import statehtn
 from statehtn import PolicyResult, Problem, Status
 from statehtn.core.policy_cut import CutPolicies
-from statehtn.errors import UnsupportedError
+from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import Limits
 from statehtn.model.policy_graph import PolicyNode
 from statehtn.policies.run import find_policy
@@ -106,7 +106,12 @@ def search(problem: Problem, wanted: ObjectiveLike, failure_cost: FailureCost = 
     price = None if failure_cost is None else float(failure_cost)
     precision = BY_SWEEP if str(wanted).startswith("evar") else PRECISION
     settings = PolicySettings.of(wanted, failure_cost=price, precision=precision)
-    result = find_policy(Session(problem), settings, LIMITS)
+    try:
+        result = find_policy(Session(problem), settings, LIMITS)
+    except InputError as error:
+        if "more than 64 outcomes" in str(error):
+            raise GaveUp from error
+        raise
     if result.stopped is not None:
         assert result.stopped is Status.TIME_LIMIT
         raise GaveUp
