@@ -22,6 +22,7 @@ from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem, Prices
 from statehtn.core.policy_run import PolicyRun, Watch, effort_of
 from statehtn.core.progress import Progress
+from statehtn.counted import finite
 from statehtn.limits import Limits
 from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
@@ -151,7 +152,7 @@ class CutPolicies(PolicyRun):
             again = self._up_to(its_cut, limits.with_grace(1.0, is_over=self.stopped is not None))
             best = best if again.graph is None else again
         status = Status.OPTIMAL if self._is_optimal else Status.SOLVED
-        low, high = _finite(self.bound), _finite(self.value)
+        low, high = finite(self.bound), finite(self.value)
         return replace(best, status=status, stopped=stopped, lower=low, upper=high, effort=self.effort)
 
     def _up_to(self, cut: int | None, limits: Limits) -> PolicyOutcome:
@@ -192,11 +193,7 @@ class CutPolicies(PolicyRun):
     def _report(self, statistics: _relax.PolicyStatistics) -> None:
         assert self.watch is not None
         seconds, effort = time.monotonic() - self.started, effort_of(statistics)
-        self.watch(Progress(seconds, effort, _finite(self.bound), _finite(self.value)))
-
-
-def _finite(number: float) -> float | None:
-    return number if math.isfinite(number) else None
+        self.watch(Progress(seconds, effort, finite(self.bound), finite(self.value)))
 
 
 def _agent(slope: float) -> Neutral | Exponential:

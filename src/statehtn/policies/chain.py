@@ -60,6 +60,21 @@ class Chain:
         return found
 
     @cached_property
+    def stuck(self) -> bytearray:
+        """For each node whether runs from it never end and pay nothing: they have failed there."""
+        flat = self.flat
+        found = bytearray(len(flat))
+        for component in self.order:
+            inside = set(component)
+            branches = [branch for node in component for branch in flat.branches(node)]
+            others = [flat.successors[branch] for branch in branches]
+            is_free = all(flat.laws[branch].most == 0 for branch in branches)
+            if self.endless[component[0]] and is_free and all(found[other] or other in inside for other in others):
+                for node in component:
+                    found[node] = True
+        return found
+
+    @cached_property
     def sure(self) -> bytearray:
         """For each node whether runs from it are done for certain: they come to no other end, and to no endless loop.
 

@@ -18,14 +18,13 @@ def least_cost(chain: Chain, failure: float) -> float:
     """
     flat = chain.flat
     steps = by_law(flat.laws, lambda law: law.least)
-    stays = _stays_for_nothing(chain)
     known = [math.inf] * len(flat)
     known[0], found, queue = 0.0, math.inf, [(0.0, 0)]
     while queue and queue[0][0] < found:
         spent, node = heapq.heappop(queue)
         if spent > known[node]:
             continue
-        if flat.ends[node] is not None or stays[node]:
+        if flat.ends[node] is not None or chain.stuck[node]:
             found = min(found, spent if flat.ends[node] is End.DONE else spent + failure)
         for branch in flat.branches(node):
             other = flat.successors[branch]
@@ -59,20 +58,3 @@ def largest_cost(chain: Chain, failure: float) -> float:
         for member in component:
             values[member] = largest
     return values[0]
-
-
-def _stays_for_nothing(chain: Chain) -> bytearray:
-    """Tell of each node whether runs from it never end and pay nothing: they have failed there."""
-    flat = chain.flat
-    found = bytearray(len(flat))
-    for component in chain.order:
-        inside = set(component)
-        branches = [branch for node in component for branch in flat.branches(node)]
-        if chain.endless[component[0]] and all(
-            flat.laws[branch].most == 0 and (found[other] or other in inside)
-            for branch in branches
-            for other in (flat.successors[branch],)
-        ):
-            for node in component:
-                found[node] = True
-    return found

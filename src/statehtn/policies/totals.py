@@ -125,11 +125,11 @@ class _Walk:
             group = self.groups[rank]
             for node, mass in self._visits(group, masses):
                 work += 1
-                if flat.ends[node] is not None:
+                if flat.ends[node] is not None or self.chain.stuck[node]:
                     ended = self.found.done if flat.ends[node] is End.DONE else self.found.failed
                     ended[amount] = ended.get(amount, 0.0) + mass
                 elif self.chain.endless[node]:
-                    self._never_ends(node, amount, mass)
+                    self.found.endless += mass
                 elif mass < NOTHING:
                     self.found.cut += mass
                 else:
@@ -161,20 +161,6 @@ class _Walk:
             return [(node, masses[node]) for node in group if node in masses]
         visits = solution(edges, [masses.get(node, 0.0) for node in group], len(group))
         return [(node, max(0.0, visit)) for node, visit in zip(group, visits, strict=True)]
-
-    def _never_ends(self, node: int, amount: int, mass: float) -> None:
-        """Count runs that have come to a loop without a way out: failed, at once where it costs nothing."""
-        reached, pending = {node}, [node]
-        while pending:
-            here = pending.pop()
-            if self.paid[here]:
-                self.found.endless += mass
-                return
-            for other, _ in self.free[here]:
-                if other not in reached:
-                    reached.add(other)
-                    pending.append(other)
-        self.found.failed[amount] = self.found.failed.get(amount, 0.0) + mass
 
 
 def outcomes_of(law: CostLaw) -> list[tuple[float, Fraction]]:
