@@ -58,7 +58,7 @@ public:
         if (actions.size() != problem_.action_count() || parts.size() != problem_.cost_part_count()) {
             throw std::invalid_argument("there must be one cost for each action, and for each part");
         }
-        return space_->most_cost(actions, parts);
+        return space_->most_cost({actions, parts});
     }
 
     std::vector<relax::FactId> facts(std::uint32_t node) const {

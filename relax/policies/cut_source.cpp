@@ -13,11 +13,9 @@ namespace relax {
 CutSource::CutSource(PolicyProgression& progression, std::vector<double> probabilities, const CostLaws& laws,
                      const Costs& costs, const std::vector<PricedTerm>& terms, const HeuristicInfo& heuristic,
                      Limits& limits)
-    : PlanningSource(progression, std::move(probabilities)),
-      laws_(laws, LawDetail{}),
+    : RememberingSource(progression, std::move(probabilities), laws, limits),
       costs_(costs),
-      sign_(terms.front().term.is_only_sought() ? -1 : 1),
-      limits_(limits) {
+      sign_(terms.front().term.is_only_sought() ? -1 : 1) {
     for (const PricedTerm& term : terms) {
         terms_.push_back(term.term);
         amounts_.push_back(term.amounts);
@@ -92,28 +90,6 @@ double CutSource::bound(PolicyNodeId node, double known) {
     return std::max(known, lower(left, [&](std::size_t term) { return bounds_[term]->closer(pair); }));
 }
 
-const Law& CutSource::law_of(const PolicyOutcome& outcome) {
-    return laws_[outcome.action ? laws_.extend(LawTable::kFree, *outcome.action, outcome.due_parts, limits_)
-                                : LawTable::kFree];
-}
-
-void CutSource::decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& drafts) {
-    const AmountLeft left = nodes_[node].left;
-    const auto& found = decisions(node);
-    drafts.resize(found.size());
-    for (std::size_t at = 0; at < found.size(); ++at) {
-        drafts[at].constant = -kNever;
-        drafts[at].cost = 0;
-        drafts[at].successors.clear();
-        drafts[at].weights.clear();
-        if (is_beyond(left)) {
-            draft_term(graph, term_of(left), found[at], drafts[at]);
-        } else {
-            draft(graph, left, found[at], drafts[at]);
-        }
-    }
-}
-
 void CutSource::draft_term(DecisionGraph& graph, std::size_t term, const PolicyDecision& decision,
                            DraftDecision& draft) {
     for (const PolicyOutcome& outcome : decision.outcomes) {
@@ -127,6 +103,11 @@ void CutSource::draft_term(DecisionGraph& graph, std::size_t term, const PolicyD
 }
 
 void CutSource::draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft) {
+    draft.constant = -kNever;
+    if (is_beyond(left)) {
+        draft_term(graph, term_of(left), decision, draft);
+        return;
+    }
     for (const PolicyOutcome& outcome : decision.outcomes) {
         const double p = probability(outcome);
         if (p == 0) {
@@ -157,35 +138,6 @@ void CutSource::lead_beyond(DecisionGraph& graph, double left, const PolicyOutco
         }
         draft.weights.push_back(factor);
         draft.successors.push_back(add(graph, outcome.state, outcome.network, beyond(term)));
-    }
-}
-
-void CutSource::list_branches(AmountLeft left, const PolicyDecision& decision, std::vector<TracedBranch>& branches) {
-    for (const PolicyOutcome& outcome : decision.outcomes) {
-        const double p = probability(outcome);
-        if (p == 0) {
-            continue;
-        }
-        const PairId pair = nodes_.pair_of(outcome.state, outcome.network);
-        const auto put = [&](double probability, AmountLeft rest) {
-            branches.push_back({probability, outcome.action, outcome.due_parts, nodes_.find(pair, rest)});
-        };
-        if (is_beyond(left)) {
-            put(p, left);
-            continue;
-        }
-        const Law& law = law_of(outcome);
-        double exceeding = 0;
-        for (std::size_t at = 0; at < law.size(); ++at) {
-            if (law.at[at] <= left - base_) {
-                put(p * law.probability[at], static_cast<AmountLeft>(left - law.at[at]));
-            } else {
-                exceeding += p * law.probability[at];
-            }
-        }
-        if (exceeding > 0) {
-            put(exceeding, beyond(0));
-        }
     }
 }
 

@@ -8,20 +8,15 @@
 
 namespace relax {
 
-double StepAmounts::of(const PolicyOutcome& outcome) const {
-    double sum = outcome.action ? actions[*outcome.action] : 0;
-    for (const CostPartId part : outcome.due_parts) {
-        sum += parts[part];
-    }
-    return sum;
-}
-
-const std::vector<PolicyDecision>& PlanningSource::decisions(PolicyNodeId node) {
+void PlanningSource::decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& drafts) {
     find_decisions(node);
-    for (PolicyDecision& decision : decisions_) {
-        follow(decision, nullptr);
+    const AmountLeft left = nodes_[node].left;
+    drafts.resize(decisions_.size());
+    for (std::size_t at = 0; at < drafts.size(); ++at) {
+        follow(decisions_[at], nullptr);
+        drafts[at].clear();
+        draft(graph, left, decisions_[at], drafts[at]);
     }
-    return decisions_;
 }
 
 PlanningSource::Traced PlanningSource::trace(PolicyNodeId node, std::uint32_t decision) {
@@ -89,24 +84,17 @@ PolicyNodeId NetworkSource::add(DecisionGraph& graph, StateId state, NetworkId n
     return node;
 }
 
-void NetworkSource::decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& drafts) {
+void NetworkSource::draft(DecisionGraph& graph, AmountLeft /*left*/, const PolicyDecision& decision,
+                          DraftDecision& draft) {
     const bool is_expected = worths_.recursion == Recursion::Expected;
-    const auto& found = decisions(node);
-    drafts.resize(found.size());
-    for (std::size_t at = 0; at < found.size(); ++at) {
-        DraftDecision& draft = drafts[at];
-        draft.constant = draft.cost = 0;
-        draft.successors.clear();
-        draft.weights.clear();
-        for (const PolicyOutcome& outcome : found[at].outcomes) {
-            const double p = probability(outcome);
-            if (p > 0) {
-                const double amount = amounts_.of(outcome);
-                draft.constant += is_expected ? p * amount : 0;
-                draft.cost += p * costs_.of(outcome);
-                draft.weights.push_back(is_expected ? p : std::log(p) + amount);
-                draft.successors.push_back(add(graph, outcome.state, outcome.network));
-            }
+    for (const PolicyOutcome& outcome : decision.outcomes) {
+        const double p = probability(outcome);
+        if (p > 0) {
+            const double amount = amounts_.of(outcome);
+            draft.constant += is_expected ? p * amount : 0;
+            draft.cost += p * costs_.of(outcome);
+            draft.weights.push_back(is_expected ? p : std::log(p) + amount);
+            draft.successors.push_back(add(graph, outcome.state, outcome.network));
         }
     }
 }

@@ -10,13 +10,11 @@ namespace relax {
 SpendingSource::SpendingSource(PolicyProgression& progression, std::vector<double> probabilities, const CostLaws& laws,
                                const Worths& worths, const PricedProblem& least, const PricedProblem& means,
                                double units_per_step, const HeuristicInfo& heuristic, Limits& limits)
-    : PlanningSource(progression, std::move(probabilities)),
-      laws_(laws, LawDetail{}),
+    : RememberingSource(progression, std::move(probabilities), laws, limits),
       worths_(worths),
       mean_step_(1 / units_per_step),
       least_(least, heuristic, progression, nodes_, limits),
-      means_(means, heuristic, progression, nodes_, limits),
-      limits_(limits) {}
+      means_(means, heuristic, progression, nodes_, limits) {}
 
 PolicyNodeId SpendingSource::add_root(DecisionGraph& graph) {
     const StateId state = progression_.initial_state();
@@ -70,27 +68,6 @@ double SpendingSource::bound(PolicyNodeId node, double known) {
     return std::max(known, lower(left, least, mean));
 }
 
-const Law& SpendingSource::law_of(const PolicyOutcome& outcome) {
-    return laws_[outcome.action ? laws_.extend(LawTable::kFree, *outcome.action, outcome.due_parts, limits_)
-                                : LawTable::kFree];
-}
-
-void SpendingSource::decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& drafts) {
-    const AmountLeft left = nodes_[node].left;
-    const auto& found = decisions(node);
-    drafts.resize(found.size());
-    for (std::size_t at = 0; at < found.size(); ++at) {
-        drafts[at].constant = drafts[at].cost = 0;
-        drafts[at].successors.clear();
-        drafts[at].weights.clear();
-        if (left == kSpent) {
-            draft_spent(graph, found[at], drafts[at]);
-        } else {
-            draft(graph, left, found[at], drafts[at]);
-        }
-    }
-}
-
 void SpendingSource::draft_spent(DecisionGraph& graph, const PolicyDecision& decision, DraftDecision& draft) {
     for (const PolicyOutcome& outcome : decision.outcomes) {
         if (const double p = probability(outcome); p > 0) {
@@ -104,6 +81,10 @@ void SpendingSource::draft_spent(DecisionGraph& graph, const PolicyDecision& dec
 
 void SpendingSource::draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision,
                            DraftDecision& draft) {
+    if (is_beyond(left)) {
+        draft_spent(graph, decision, draft);
+        return;
+    }
     const double spent_weight = worths_.disutility.slope > 0 ? 1 : 0;
     for (const PolicyOutcome& outcome : decision.outcomes) {
         const double p = probability(outcome);
@@ -125,36 +106,6 @@ void SpendingSource::draft(DecisionGraph& graph, AmountLeft left, const PolicyDe
         if (beyond > 0) {
             draft.weights.push_back(spent_weight * beyond);
             draft.successors.push_back(add(graph, outcome.state, outcome.network, kSpent));
-        }
-    }
-}
-
-void SpendingSource::list_branches(AmountLeft left, const PolicyDecision& decision,
-                                   std::vector<TracedBranch>& branches) {
-    for (const PolicyOutcome& outcome : decision.outcomes) {
-        const double p = probability(outcome);
-        if (p == 0) {
-            continue;
-        }
-        const PairId pair = nodes_.pair_of(outcome.state, outcome.network);
-        const auto put = [&](double probability, AmountLeft rest) {
-            branches.push_back({probability, outcome.action, outcome.due_parts, nodes_.find(pair, rest)});
-        };
-        if (left == kSpent) {
-            put(p, kSpent);
-            continue;
-        }
-        const Law& law = law_of(outcome);
-        double beyond = 0;
-        for (std::size_t at = 0; at < law.size(); ++at) {
-            if (law.at[at] <= left) {
-                put(p * law.probability[at], AmountLeft(left - law.at[at]));
-            } else {
-                beyond += p * law.probability[at];
-            }
-        }
-        if (beyond > 0) {
-            put(beyond, kSpent);
         }
     }
 }

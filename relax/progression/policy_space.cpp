@@ -1,6 +1,7 @@
 #include "relax/progression/policy_space.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "relax/base/strong_components.hpp"
 
@@ -35,14 +36,7 @@ PolicySpace::PolicySpace(PolicyProgression& progression, std::size_t most_nodes,
     });
 }
 
-std::optional<double> PolicySpace::most_cost(std::span<const double> actions, std::span<const double> parts) const {
-    const auto cost_of = [&](const Outcome& outcome) {
-        double cost = outcome.action ? actions[*outcome.action] : 0;
-        for (const CostPartId part : outcome.due_parts) {
-            cost += parts[part];
-        }
-        return cost;
-    };
+std::optional<double> PolicySpace::most_cost(const StepAmounts& largest_costs) const {
     std::vector<std::uint32_t> first{0};
     std::vector<std::uint32_t> successors;
     std::vector<double> costs;
@@ -50,7 +44,7 @@ std::optional<double> PolicySpace::most_cost(std::span<const double> actions, st
         for (const Decision& decision : decisions) {
             for (const Outcome& outcome : decision.outcomes) {
                 successors.push_back(outcome.node);
-                costs.push_back(cost_of(outcome));
+                costs.push_back(largest_costs.of(outcome));
             }
         }
         first.push_back(static_cast<std::uint32_t>(successors.size()));

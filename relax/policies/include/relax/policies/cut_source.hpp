@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "relax/policies/disutility_terms.hpp"
-#include "relax/policies/network_source.hpp"
-#include "relax/valuations/cost_laws.hpp"
+#include "relax/policies/remembering_source.hpp"
 
 namespace relax {
 
@@ -38,7 +37,7 @@ namespace relax {
 //
 // Where nothing is remembered, a search begins beyond the cut, once with each term: the sum of their worths is the
 // ideal point of all policies. Agents who heed no cost on the way need fewer decisions.
-class CutSource : public PlanningSource {
+class CutSource : public RememberingSource {
 public:
     // A term of the disutility, with what every action is worth by it alone: certainty equivalents in the unit of
     // costs, and the same as prices, in units, for bounds.
@@ -67,18 +66,15 @@ public:
     }
 
     PolicyNodeId add_root(DecisionGraph& graph) override;
-    void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& decisions) override;
     double bound(PolicyNodeId node, double known) override;
 
 private:
     // The nodes beyond the cut have as what is left the number of their term, from kSpent on. They serve every cut; the
     // others differ from cut to cut, by a number that is added to what is left.
-    static bool is_beyond(AmountLeft left) { return left < 0; }
     static AmountLeft beyond(std::size_t term) { return kSpent + static_cast<AmountLeft>(term); }
     static std::size_t term_of(AmountLeft left) { return static_cast<std::size_t>(left - kSpent); }
 
-    void list_branches(AmountLeft left, const PolicyDecision& decision, std::vector<TracedBranch>& branches) override;
-    void draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft);
+    void draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft) override;
     void draft_term(DecisionGraph& graph, std::size_t term, const PolicyDecision& decision, DraftDecision& draft);
     void lead_beyond(DecisionGraph& graph, double left, const PolicyOutcome& outcome, const Law& law, double p,
                      DraftDecision& draft);
@@ -88,18 +84,14 @@ private:
     template <typename CostOf>
     double lower(AmountLeft left, CostOf cost_of) const;
     double stop(AmountLeft left) const;
-    const Law& law_of(const PolicyOutcome& outcome);
 
-    LawsSoFar laws_;
     Costs costs_;
     double sign_;  // of logarithms as worths
     std::vector<DisutilityTerm> terms_;
     std::vector<StepAmounts> amounts_;  // by term
     std::vector<double> units_;
     std::vector<std::unique_ptr<PairBounds>> bounds_;
-    Limits& limits_;
-    AmountLeft cut_ = 0;
-    AmountLeft base_ = 0;                     // of the present cut
+    AmountLeft cut_ = 0;                      // the present one; `base_` is its own
     AmountLeft next_base_ = 0;                // larger than all that is left
     std::map<AmountLeft, AmountLeft> bases_;  // by cut
     AmountLeft root_ = 0;

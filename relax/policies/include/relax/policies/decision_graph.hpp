@@ -30,6 +30,12 @@ struct DraftDecision {
     double cost = 0;
     std::vector<PolicyNodeId> successors;
     std::vector<double> weights;
+
+    void clear() {
+        constant = cost = 0;
+        successors.clear();
+        weights.clear();
+    }
 };
 
 // The explored part of an AND/OR graph in flat arrays: nodes, of which each is decided once it is expanded; the

@@ -13,17 +13,9 @@
 #include "relax/policies/network_nodes.hpp"
 #include "relax/policies/recursion.hpp"
 #include "relax/progression/policy_progression.hpp"
+#include "relax/progression/step_amounts.hpp"
 
 namespace relax {
-
-// An amount for each action and each part of its cost.
-struct StepAmounts {
-    std::vector<double> actions;  // by ActionId
-    std::vector<double> parts;    // by CostPartId
-
-    // Of an execution; 0 where nothing is executed.
-    double of(const PolicyOutcome& outcome) const;
-};
 
 // An outcome of a decision, and the branch of the graph that it is: of what remembers an amount spent, the same outcome
 // has a branch for each amount.
@@ -66,7 +58,11 @@ public:
     };
     Traced trace(PolicyNodeId node, std::uint32_t decision);
 
+    void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& drafts) final;
+
 protected:
+    // Say what a decision leads to from a node with so much left. `draft` is empty, with the constant 0.
+    virtual void draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft) = 0;
     // Call `put(probability, outcome, successor)` for each branch of a decision, always in the same order.
     virtual void list_branches(AmountLeft left, const PolicyDecision& decision,
                                std::vector<TracedBranch>& branches) = 0;
@@ -74,8 +70,6 @@ protected:
     double probability(const PolicyOutcome& outcome) const {
         return outcome.action ? probabilities_[*outcome.action] : 1.0;
     }
-    const std::vector<PolicyDecision>& decisions(PolicyNodeId node);
-
     PolicyProgression& progression_;
     NetworkNodes nodes_;
 
@@ -107,10 +101,10 @@ public:
                   const HeuristicInfo& heuristic, Limits& limits);
 
     PolicyNodeId add_root(DecisionGraph& graph) override;
-    void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& decisions) override;
     double bound(PolicyNodeId node, double known) override;
 
 private:
+    void draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft) override;
     void list_branches(AmountLeft left, const PolicyDecision& decision, std::vector<TracedBranch>& branches) override;
     PolicyNodeId add(DecisionGraph& graph, StateId state, NetworkId network);
     double worth_of(Cost bound) const {

@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "relax/policies/network_source.hpp"
-#include "relax/valuations/cost_laws.hpp"
+#include "relax/policies/remembering_source.hpp"
 
 namespace relax {
 
@@ -36,7 +35,7 @@ struct DisutilityLeft {
 //
 // `Worths::failure`: what giving up adds to what was spent, in steps; kNever where one may not. If that is infinite and
 // allowed, to have spent more than the amount is as bad as to have failed: nodes there are ends.
-class SpendingSource : public PlanningSource {
+class SpendingSource : public RememberingSource {
 public:
     enum class GivingUp : std::uint8_t { No, AtACost, AsBadAsLate };
     struct Worths {
@@ -55,26 +54,21 @@ public:
     void begin_with(AmountLeft left) { first_ = left; }
 
     PolicyNodeId add_root(DecisionGraph& graph) override;
-    void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& decisions) override;
     double bound(PolicyNodeId node, double known) override;
 
 private:
-    void list_branches(AmountLeft left, const PolicyDecision& decision, std::vector<TracedBranch>& branches) override;
-    void draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft);
+    void draft(DecisionGraph& graph, AmountLeft left, const PolicyDecision& decision, DraftDecision& draft) override;
     void draft_spent(DecisionGraph& graph, const PolicyDecision& decision, DraftDecision& draft);
     PolicyNodeId add(DecisionGraph& graph, StateId state, NetworkId network, AmountLeft left);
     double lower(AmountLeft left, Cost least, Cost mean) const;
     double stop(AmountLeft left) const;
-    const Law& law_of(const PolicyOutcome& outcome);
     // Of a spent node per step: the slope, or 1 where its worth does not matter to others.
     double scale() const { return worths_.disutility.slope > 0 ? worths_.disutility.slope : 1; }
 
-    LawsSoFar laws_;
     Worths worths_;
     double mean_step_;  // in steps, of a unit of the means
     PairBounds least_;
     PairBounds means_;
-    Limits& limits_;
     AmountLeft first_ = 0;
 };
 

@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "relax/base/id_table.hpp"
 #include "relax/base/limits.hpp"
 #include "relax/progression/policy_progression.hpp"
+#include "relax/progression/step_amounts.hpp"
 
 namespace relax {
 
@@ -40,7 +40,7 @@ public:
     const std::vector<Decision>& decisions(std::uint32_t node) const { return decisions_[node]; }
     // Of a complete space: the largest total cost of a run, whatever is decided and whatever comes, from the largest
     // costs of actions and of parts; none where a loop costs something, so that there is no largest one.
-    std::optional<double> most_cost(std::span<const double> actions, std::span<const double> parts) const;
+    std::optional<double> most_cost(const StepAmounts& largest_costs) const;
 
 private:
     std::uint32_t number_of(StateId state, NetworkId network);
