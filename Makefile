@@ -67,9 +67,9 @@ $(VENV)/.storm: pyproject.toml $(VENV)/.created
 	  echo "no wheel of stormpy can be had here: what Storm would check is skipped" >&2
 	@touch $@
 
-# Of what pip and ninja say, only ninja's steps are shown, as "[12/90] hmax.cpp": in a terminal each in place of the one
+# Of what pip and ninja say, only ninja's steps are shown, as "[12/26] relax_search": in a terminal each in place of the one
 # before, else every tenth part of them.
-STEPS := awk -F '[][/ ]+' '/^ *\[[0-9]+\/[0-9]+\] / { part = int(10 * $$2 / $$3); sub(/\.o$$/, "", $$NF); step = "[" $$2 "/" $$3 "] " $$NF; \
+STEPS := awk -F '[][/ ]+' '/^ *\[[0-9]+\/[0-9]+\] / { part = int(10 * $$2 / $$3); name = $$NF ~ /^unity_/ ? $$(NF-2) : $$NF; sub(/\.(o|dir)$$/, "", name); step = "[" $$2 "/" $$3 "] " name; \
   if (terminal) printf "\r\033[K%s", step; else if (part > shown) print step; shown = part; fflush() } \
   END { if (terminal) print "" }'
 
