@@ -34,6 +34,7 @@ from statehtn.risk import (
     Objective,
     ObjectiveLike,
     OneSwitch,
+    Success,
     objective,
     problem_class,
     utility_for,
@@ -188,7 +189,9 @@ class TopSettings(_Compared):
 
 
 def objective_of(
-    wanted: ObjectiveLike | None, attitude: Attitude | AttitudeName | None = None, alpha: float | None = None
+    wanted: ObjectiveLike | Success | None,
+    attitude: Attitude | AttitudeName | None = None,
+    alpha: float | None = None,
 ) -> Objective:
     """Return an objective from what a user gives: itself, its text form, a callable, or an attitude with its alpha.
 

@@ -6,6 +6,7 @@ import textwrap
 
 from statehtn.core.heuristics import HEURISTICS, PORTFOLIO
 from statehtn.risk import OBJECTIVES
+from statehtn.risk.policy_objectives import POLICY_OBJECTIVES
 
 HELP_WIDTH = 100
 _AUTO = (
@@ -22,6 +23,14 @@ heuristics:
 exit codes:
   0 plan found    10 proven unsolvable    20 time limit      30 input error             130 interrupted
   2 usage         12 search exhausted     21 memory limit    31 unsupported feature
+"""
+
+POLICY_EPILOG = """objectives:
+{}
+
+exit codes:
+  0 policy found  10 proven unsolvable    20 time limit      30 input error             130 interrupted
+  2 usage         12 search exhausted     21 memory limit    31 unsupported feature     74 cannot write
 """
 
 TOP_EPILOG = """exit codes:
@@ -51,9 +60,14 @@ exit codes: 0 every run is recorded, 2 usage, 30 wrong suite, folder or file, 69
 def plan_epilog() -> str:
     """Return the end of the help of `statehtn plan`, which describes the objectives and the heuristics."""
     return PLAN_EPILOG.format(
-        described({form.form: form.meaning for form in OBJECTIVES.values()}),
+        described({form.form: form.meaning for form in {**OBJECTIVES, **POLICY_OBJECTIVES}.values()}),
         described({PORTFOLIO: _AUTO, **{name: info.description for name, info in HEURISTICS.items()}}),
     )
+
+
+def policy_epilog() -> str:
+    """Return the end of the help of `statehtn policy`, which describes the objectives."""
+    return POLICY_EPILOG.format(described({form.form: form.meaning for form in POLICY_OBJECTIVES.values()}))
 
 
 def described(descriptions: dict[str, str]) -> str:

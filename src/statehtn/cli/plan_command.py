@@ -16,11 +16,14 @@ from statehtn.compatible import NOTHING, switches_in
 from statehtn.core.heuristics import PORTFOLIO
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
+from statehtn.expected import one_of
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem
 from statehtn.model.status import Status
 from statehtn.result import Result
-from statehtn.risk import Success, SuccessUtility
+from statehtn.risk import OBJECTIVES, Success, SuccessUtility
+from statehtn.risk.objectives import name_in
+from statehtn.risk.policy_objectives import POLICY_OBJECTIVES
 from statehtn.session import Session
 from statehtn.settings import Settings
 from statehtn.sweeps import solutions
@@ -37,7 +40,6 @@ OF_PLANS: dict[str, tuple[object, ...]] = {
     "format": ("table", "json"),
 }
 """Options that policies do not have, with what they may be nevertheless: their defaults."""
-SUCCESS = str(Success())
 
 
 def run_plan(options: argparse.Namespace) -> ExitCode:
@@ -47,7 +49,7 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         StateHtnError: the options or the input are wrong.
         OutputError: the plan was found and printed, but could not be written to a file.
     """
-    if options.adaptive or options.failure_cost is not None or options.objective == SUCCESS:
+    if _asks_for_policy(options):
         return _run_policy(options)
     settings = Settings.of(
         objective_in(options),
@@ -94,6 +96,18 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
     if keeper.failure is not None:
         raise keeper.failure
     return EXIT_CODES[result.status]
+
+
+def _asks_for_policy(options: argparse.Namespace) -> bool:
+    """Tell whether the options are about policies, whatever the problem.
+
+    Raises:
+        UsageError: there are neither plans nor policies by such an objective.
+    """
+    name = None
+    if options.objective is not None:
+        name = one_of(name_in(options.objective), {**OBJECTIVES, **POLICY_OBJECTIVES}, "objective")
+    return options.adaptive or options.failure_cost is not None or name == str(Success())
 
 
 class _SeveralOutcomes(Exception):

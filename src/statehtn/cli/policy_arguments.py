@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import argparse
 
+from statehtn.cli.epilogs import policy_epilog
 from statehtn.cli.parser import Parser
 from statehtn.cli.shared_options import add_inputs, add_limits, add_policy_agent
-
-POLICY_EPILOG = """exit codes:
-  0 policy found  10 proven unsolvable    20 time limit      30 input error             130 interrupted
-  2 usage         12 search exhausted     21 memory limit    31 unsupported feature     74 cannot write
-"""
 
 
 def add_policy(commands: argparse._SubParsersAction[Parser]) -> None:
@@ -20,7 +16,7 @@ def add_policy(commands: argparse._SubParsersAction[Parser]) -> None:
         help="find the best policy: what to do in every state that may come up",
         description="Find the best policy by an objective, and prove it: actions may have several outcomes, and the "
         "agent sees what came of them, and what they cost, before it decides further.",
-        epilog=POLICY_EPILOG,
+        epilog=policy_epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )

@@ -71,8 +71,8 @@ def add_policy_agent(parser: argparse.ArgumentParser) -> None:
     agent.add_argument(
         "--objective",
         metavar="TEXT",
-        help="what policies are compared by: 'success', the probability of being done, or an objective of 'statehtn "
-        "plan', such as 'deadline 25'; default: the expected cost",
+        help="what policies are compared by, such as 'success' or 'deadline 25': see the end of the help of 'statehtn "
+        "policy'; default: the expected cost",
     )
     _add_attitude(agent)
     add_failing(agent)

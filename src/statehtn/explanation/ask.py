@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from statehtn.errors import UsageError
 from statehtn.expected import items
 from statehtn.explanation.explanation import NoPlan, why_no_plan
 from statehtn.explanation.given_plan import WhyNot, why_not
@@ -51,7 +50,5 @@ def why(
     if plan is None:
         is_given = objective is not None or attitude is not None or alpha is not None
         return why_no_plan(problem, limits, policy_objective(objective, attitude, alpha) if is_given else None)
-    if isinstance(objective, Success):
-        raise UsageError("plans are not compared by 'success', policies are")
     settings = Settings.of(objective_of(objective, attitude, alpha))
     return why_not(problem, plan if isinstance(plan, Plan) else items(plan, "the actions"), settings, limits)

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from statehtn.errors import UsageError
 from statehtn.expected import number
 from statehtn.risk import Attitude, AttitudeName, ObjectiveLike, Success, agent_in, problem_class
-from statehtn.risk.policy_objectives import PolicyObjective, check_failure_cost, check_has_policies
+from statehtn.risk.policy_objectives import (
+    PolicyObjective,
+    check_failure_cost,
+    check_has_policies,
+    policy_objective_of,
+)
 from statehtn.settings import DEFAULT_PRECISION, objective_of, precision_of
-
-SUCCESS = str(Success())
-"""The text form of the objective that only policies have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,11 +87,12 @@ def policy_objective(
         UsageError: there is none like that, or it is given in two ways.
         UnsupportedError: no policy can be found by it.
     """
-    if isinstance(wanted, Success) or (isinstance(wanted, str) and wanted.strip() == SUCCESS):
+    found = policy_objective_of(wanted) if isinstance(wanted, str) else wanted
+    if isinstance(found, Success):
         if attitude is not None or alpha is not None:
             raise UsageError("by 'success' policies are compared by the probability of being done, for any attitude")
-        return wanted if isinstance(wanted, Success) else Success()
-    found = objective_of(wanted, attitude, alpha)
+        return found
+    found = objective_of(found, attitude, alpha)
     check_has_policies(found)
     return found
 

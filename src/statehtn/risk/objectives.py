@@ -23,6 +23,7 @@ from statehtn.risk.one_switch import OneSwitch
 from statehtn.risk.overrun import Overrun
 from statehtn.risk.piecewise import Piecewise
 from statehtn.risk.quantile import Quantile
+from statehtn.risk.success import Success
 from statehtn.risk.success_utility import SuccessUtility
 from statehtn.risk.utility import Attitude
 
@@ -43,7 +44,7 @@ class ObjectiveForm:
 
     form: str
     meaning: str
-    make: Callable[..., Objective]
+    make: Callable[..., Objective | Success]
 
     @property
     def parameters(self) -> list[str]:
@@ -81,7 +82,7 @@ OBJECTIVES: Mapping[str, ObjectiveForm] = MappingProxyType({form.form.split()[0]
 """The objectives that have a text form, by name."""
 
 
-def objective(wanted: ObjectiveLike) -> Objective:
+def objective(wanted: ObjectiveLike | Success) -> Objective:
     """Return the objective that plans are to be chosen by.
 
     Args:
@@ -91,8 +92,13 @@ def objective(wanted: ObjectiveLike) -> Objective:
     Raises:
         UsageError: there is no such objective, or a parameter is missing, superfluous or out of its range.
     """
+    if isinstance(wanted, Success) or (isinstance(wanted, str) and name_in(wanted) == str(Success())):
+        raise UsageError(
+            "plans are not compared by 'success', policies are: 'statehtn policy' finds the one that is most likely "
+            "done; 'success-utility' values plans that count on outcomes"
+        )
     if isinstance(wanted, str):
-        return _parsed(wanted)
+        return parsed(wanted, OBJECTIVES)  # type: ignore[return-value]
     if isinstance(wanted, Objective) and not isinstance(wanted, type):
         return wanted
     if callable(wanted) and not isinstance(wanted, type):
@@ -103,10 +109,23 @@ def objective(wanted: ObjectiveLike) -> Objective:
     )
 
 
-def _parsed(text: str) -> Objective:
-    name, *words = text.split() or [""]
-    form = OBJECTIVES[one_of(name, OBJECTIVES, "objective")]
-    given = _in_order(form, words, text)
+def name_in(text: str) -> str:
+    """Return the first word of the text form of an objective: its name, if there is one like that."""
+    return (text.split() or [""])[0]
+
+
+def parsed(text: str, forms: Mapping[str, ObjectiveForm]) -> Objective | Success:
+    """Return an objective from its text form.
+
+    Args:
+        text: the text form.
+        forms: of the objectives that are known here, by name.
+
+    Raises:
+        UsageError: there is no such objective, or a parameter is missing, superfluous or out of its range.
+    """
+    form = forms[one_of(name_in(text), forms, "objective")]
+    given = _in_order(form, text.split()[1:], text)
     try:
         return form.make(*given)
     except UsageError as error:
