@@ -96,6 +96,21 @@ def test_what_cannot_be_read_at_all_is_none(capsys: pytest.CaptureFixture[str]) 
     assert "domain.hddl:1:9: error: unbalanced parentheses" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("block", "advice"),
+    [
+        ("-0.5 (q) 0.5 ()", "probabilities are numbers from 0 to 1"),
+        ("-0.5 (increase (total-cost) 1)", "probabilities are numbers from 0 to 1"),
+        ("0.5 (q) 0.5", "write a probability before each part, as in 0.3 (..) 0.7 (..)"),
+        ("0.9 (q) 0.8 ()", "make the probabilities of the block sum to 1"),
+        ("0.9 (q)", "make the probabilities of the block sum to 1"),
+    ],
+)
+def test_advice_on_probabilities_helps_with_what_is_wrong(block: str, advice: str) -> None:
+    mutated("(p ?x) (q))))", f"(p ?x) (probabilistic {block}))))")
+    assert [(finding.code, finding.advice) for finding in check("domain.hddl")] == [("probabilities", advice)]
+
+
 def test_an_object_that_only_a_problem_declares() -> None:
     mutated("(act ?x)", "(act b)")
     (finding,) = check("domain.hddl")

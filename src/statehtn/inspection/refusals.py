@@ -19,7 +19,10 @@ _KINDS = (
     (r" is of type .* expects ", "types", "pass another argument, or change one of the two types"),
     (r"the types are in a cycle", "cyclic-types", "take one of them out of the circle"),
     (r"ordering of the subtasks is cyclic", "cyclic-ordering", "leave out one of these orderings"),
-    (r"probabilit", "probabilities", "make the probabilities of the block sum to 1"),
+    (r"probabilities .* sum to", "probabilities", "make the probabilities of the block sum to 1"),
+    (r"probability must not be negative", "probabilities", "probabilities are numbers from 0 to 1"),
+    (r"pairs of a probability", "probabilities", "write a probability before each part, as in 0.3 (..) 0.7 (..)"),
+    (r"probabilit", "probabilities", ""),
     (r"negative|a cost ", "costs", "costs are numbers of at least 0"),
     (r"already|twice|declared again|differ in case|a second section", "declared-twice", "keep one of them"),
 )
