@@ -42,6 +42,12 @@ def squared(cost: float) -> float:
     return -(cost**2)
 
 
+def test_too_many_amounts_are_said_in_words() -> None:
+    for failure_cost, shown in ((2.0**21, "1048580"), (1e300, "5e\\+299")):
+        with pytest.raises(UnsupportedError, match=f"there are {shown} of them, more than 1048576; round the costs"):
+            policy(tries(), failure_cost=failure_cost)
+
+
 def policy(problem: Problem, function: object = squared, **options: object) -> PolicyResult:
     return statehtn.policy(problem, objective=function, precision=1e-9, **options)
 

@@ -6,6 +6,7 @@ from statehtn.core.law_grid import LawGrid
 from statehtn.core.policy_disutility import Disutility
 from statehtn.core.policy_space import most_cost
 from statehtn.errors import UnsupportedError
+from statehtn.expected import shown_number
 from statehtn.limits import Limits, watched
 from statehtn.model.cost.total import as_decimal
 from statehtn.risk import CallableUtility
@@ -43,8 +44,8 @@ def bounded_disutility(
     first = int(most) + (0 if failure_cost is None else int(as_decimal(failure_cost) / step))
     if first >= MOST_AMOUNTS:
         raise UnsupportedError(
-            f"a policy by '{objective}' needs its values for all amounts that may be spent, and there are {first + 1} "
-            f"of them, more than {MOST_AMOUNTS}; round the costs"
+            f"a policy by '{objective}' needs its values for all amounts that may be spent, and there are "
+            f"{shown_number(first + 1)} of them, more than {MOST_AMOUNTS}; round the costs"
         )
     with watched(limits):
         utilities = objective.utilities(float(step * amount) for amount in range(first + 1))
