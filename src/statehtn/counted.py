@@ -1,8 +1,9 @@
-"""Numbers of things in words, letters for them, numbers for JSON, and long texts in short."""
+"""Numbers of things in words, letters for them, probabilities, numbers for JSON, and long texts in short."""
 
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 MOST_CHARACTERS = 80
 
@@ -15,6 +16,19 @@ def counted(number: int, noun: str) -> str:
 def brief(text: str) -> str:
     """Return a text, cut where it is long."""
     return text if len(text) <= MOST_CHARACTERS else f"{text[: MOST_CHARACTERS - 3]}..."
+
+
+def likely(probability: Fraction | float, rest: float | None = None, digits: int = 10) -> str:
+    """Return a probability as people write it: never 1 where it is not 1, but `1 - 2e-12`.
+
+    Args:
+        probability: from 0 to 1.
+        rest: the probability of everything else, where it is known better than as the difference to 1.
+        digits: that are shown.
+    """
+    text = f"{float(probability):.{digits}g}"
+    other = float(1 - probability if rest is None else rest)
+    return f"1 - {other:.3g}" if text == "1" and other > 0 else text
 
 
 def finite(number: float | None) -> float | None:

@@ -90,6 +90,20 @@ def test_decompositions_and_preconditions_are_left_out() -> None:
     assert policy_text(PolicyGraph.of(nodes)).splitlines() == ["(go)", "done"]
 
 
+def test_what_is_not_certain_is_not_said_to_be() -> None:
+    for rest, texts in ((1e-10, ("1e-10", "1 - 1e-10")), (1e-20, ("1e-20", "1 - 1e-20"))):
+        held, again = (
+            Branch(p, certain(1), to, facts)
+            for p, to, facts in ((rest, 1, frozenset({HELD})), (1 - rest, 0, frozenset()))
+        )
+        nodes = [
+            PolicyNode(frozenset(), (TRY,), (), Decision(0, TRY, (held, again))),
+            PolicyNode(frozenset({HELD}), (), (), None, End.DONE),
+        ]
+        shown = policy_text(PolicyGraph.of(nodes)).splitlines()
+        assert shown[1:] == [f"  if (held cup), {texts[0]}: done", f"  otherwise, {texts[1]}: go on at A"]
+
+
 def test_two_ways_to_one_place_share_it() -> None:
     lock, jammed, opened = Step("turn-key"), ("jammed", "lock"), ("open", "lock")
     nodes = [

@@ -50,6 +50,16 @@ def test_tries(count: int) -> None:
     assert late.value == pytest.approx(0.5 ** min(count, 3), rel=1e-12)
 
 
+@pytest.mark.parametrize("count", [3, 60, 500])
+def test_a_probability_of_1_is_certain(count: int) -> None:
+    """So many tries all fail with 1/2 to that power, which is lost beside 1."""
+    several = policy(tries(count))
+    assert several.failure_probability == 0.5**count
+    assert several.success_probability < 1
+    assert several.success_probability == pytest.approx(1 - 0.5**count, rel=1e-15)
+    assert (policy(retry()).failure_probability, policy(retry()).success_probability) == (0, 1)
+
+
 def test_failing_costs_what_was_spent_and_the_failure_cost() -> None:
     law = policy(tries(3), failure_cost=10).cost_distribution()
     assert law.outcomes == ((0.5, 1), (0.25, 2), (0.125, 3), (0.125, 13))

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
+from statehtn.counted import likely
 from statehtn.errors import UsageError
 from statehtn.hddl.writer import expression_text, formula_text
 from statehtn.model.cost.blocks import CostBlock
@@ -135,7 +136,7 @@ def _add_ground_method(graph: nx.MultiDiGraph[str], problem: GroundProblem, numb
         label = "network"
     elif method.task in problem.chance_tasks:
         (outcome,) = method.subtasks
-        label = f"outcome w.p. {float(problem.actions[outcome].probability):.6g}"
+        label = f"outcome w.p. {likely(problem.actions[outcome].probability, digits=6)}"
     graph.add_node(f"m{number}", kind=Kind.METHOD, label=label, ordering=ordering)
     graph.add_edge(f"t{method.task}", f"m{number}")
     for position, index in place.items():

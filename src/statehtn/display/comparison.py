@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 from statehtn.attitudes import AttitudeComparison, Difference, tokens
-from statehtn.display.table import Column, Table
+from statehtn.display.table import Column, Table, on_the_point
 from statehtn.found_plan import PricedStep
 from statehtn.model.plan import Step
 from statehtn.model.status import Status
@@ -130,9 +130,11 @@ def _reason_lines(comparison: AttitudeComparison, agent: int, other: int, parts:
         return
     price, other_price = _apart(cost, other_cost)
     yield f"{names[agent]} instead of {names[other]}: {price}, not {other_price}, by its own measure"
-    for part in parts:  # without prices where those of parts of a plan do not add up
-        yield f"  {_number(part.own_cost):>8}  {_actions(part.own)}"
-        yield f"  {_number(part.other_cost):>8}  instead of {_actions(part.other)}"
+    # Without prices where those of parts of a plan do not add up.
+    numbers = on_the_point([_number(cost) for part in parts for cost in (part.own_cost, part.other_cost)])
+    for part, own, others in zip(parts, numbers[::2], numbers[1::2], strict=True):
+        yield f"  {own}  {_actions(part.own)}"
+        yield f"  {others}  instead of {_actions(part.other)}"
 
 
 def _are_equal(price: float | None, other: float | None) -> bool:

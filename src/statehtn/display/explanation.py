@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from statehtn.counted import counted
+from statehtn.counted import counted, likely
 from statehtn.display.comparison import LEAST, TIE, actions_text
 from statehtn.display.policy_words import OTHERWISE, conditions
+from statehtn.display.table import on_the_point
 from statehtn.display.tree import tree_text
-from statehtn.display.words import ENDINGS, number
+from statehtn.display.words import ENDINGS, number, value_text, with_unit
 from statehtn.explanation.chance import BadOutcome, NoPolicy
 from statehtn.explanation.deepest import Deadlock, Exploration, Lack
 from statehtn.explanation.explanation import NoPlan
@@ -17,9 +18,12 @@ from statehtn.explanation.given_plan import WhyNot
 from statehtn.explanation.reason import Addition, Reason
 from statehtn.model.decomposition_tree import TreeRow
 from statehtn.model.status import Status
+from statehtn.risk import ValueUnit
 
 MOST_STEPS = 12
 """Steps of a way that are shown; those before them are counted."""
+PRICES = {ValueUnit.LOG_UTILITY: ", with what they count: -ln of probabilities and of utilities"}
+"""What the numbers beside parts of plans are, where they are no costs."""
 
 
 def no_plan_text(answer: NoPlan) -> str:
@@ -54,11 +58,11 @@ def no_policy_lines(answer: NoPolicy) -> Iterator[str]:
         yield "With --failure-cost the agent may give up."
         return
     known = "the most likely one" if answer.is_proven else "the most likely one that was found"
-    yield f"No policy is done with probability 1: {known} is done with probability {number(answer.most_success)}."
+    yield f"No policy is done with probability 1: {known} is done with probability {likely(answer.most_success)}."
     if answer.dead_ends:
         yield "After these outcomes nothing is left that could be done:"
         for bad in answer.dead_ends:
-            yield f"  {_bad_outcome(bad)}; runs of that policy come to it with probability {number(bad.reached)}"
+            yield f"  {_bad_outcome(bad)}; runs of that policy come to it with probability {likely(bad.reached)}"
     yield "With --failure-cost the agent may give up; --objective success asks for the policy that is most likely done."
 
 
@@ -77,7 +81,7 @@ def _bad_outcome(bad: BadOutcome) -> str:
     if condition == OTHERWISE:
         others = " or ".join(text for changes, text in texts.items() if changes != bad.changes)
         condition = f"it does not come to {others}"
-    return f"{bad.action} if {condition}, {number(bad.probability)}"
+    return f"{bad.action} if {condition}, {likely(bad.probability)}"
 
 
 def reason_lines(reason: Reason | None) -> list[str]:
@@ -151,21 +155,24 @@ def _why_not(answer: WhyNot) -> Iterator[str]:
         return
     given, best = answer.given, answer.best
     assert best is not None
-    name = f"by '{answer.objective}'"
+    value = f"value {with_unit(given.value, answer.objective.unit)}"
+    name, unit = f"by '{answer.objective}'", answer.objective.unit
     if best.value is None:
-        yield f"It is a valid plan, of value {number(given.value)} {name}; no other was found: {ENDINGS[best.status]}"
+        yield f"It is a valid plan, of {value} {name}; no other was found: {ENDINGS[best.status]}"
         return
     proven = best.status is Status.OPTIMAL
     if given.value <= best.value or math.isclose(given.value, best.value, rel_tol=TIE, abs_tol=LEAST):
         why = "no plan is better" if proven else "none better was found before the run was ended"
-        yield f"It is a valid plan, of value {number(given.value)} {name}: {why}."
+        yield f"It is a valid plan, of {value} {name}: {why}."
         return
     more = number(given.value - best.value)
     which = "the best plan" if proven else "the best plan that was found"
-    values = f"{number(given.value)}, not {number(best.value)}"
-    yield f"It is a valid plan, and costs {more} more than {which}: {values}, {name}."
-    yield "Where they part:"
-    for part in answer.differences:
-        own, other = ([priced.step for priced in steps] for steps in (part.own, part.other))
-        yield f"  {number(part.own_cost):>11}  {actions_text(own)}"
-        yield f"  {number(part.other_cost):>11}  in the best plan: {actions_text(other)}"
+    values = f"{value_text(given.value, unit)}, not {value_text(best.value, unit)}"
+    worse = f"costs {more} more than" if unit is ValueUnit.COST else f"its value is {more} ({unit}) above that of"
+    yield f"It is a valid plan, and {worse} {which}: {values}, {name}."
+    yield f"Where they part{PRICES.get(unit, '')}:"
+    parts = answer.differences
+    numbers = on_the_point([number(cost) for part in parts for cost in (part.own_cost, part.other_cost)])
+    for part, own, others in zip(parts, numbers[::2], numbers[1::2], strict=True):
+        yield f"  {own}  {actions_text([priced.step for priced in part.own])}"
+        yield f"  {others}  in the best plan: {actions_text([priced.step for priced in part.other])}"

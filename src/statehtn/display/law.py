@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from statehtn.counted import brief
+from statehtn.counted import brief, likely
 from statehtn.display.table import Column, Table
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
@@ -21,6 +21,6 @@ def law_html(law: CostLaw) -> str:
     rows = [(name, f"{value:.6g}") for name, value in values.items()]
     table = Table((Column(brief(str(law))), Column("", is_number=True)), rows).to_html()
     if isinstance(law, CostDistribution) and 1 < len(law.outcomes) <= MOST_OUTCOMES:
-        rows = [(f"{cost:g}", f"{probability:g}") for probability, cost in law.outcomes]
+        rows = [(f"{cost:g}", likely(probability, digits=6)) for probability, cost in law.outcomes]
         table += Table((Column("outcome", is_number=True), Column("probability", is_number=True)), rows).to_html()
     return f"<div>{table}</div>"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from statehtn.counted import likely
 from statehtn.display.policy_outline import MOST_NODES, outline
 from statehtn.display.policy_tree import ENDS
 from statehtn.errors import UsageError
@@ -35,6 +36,6 @@ def drawn_policy(graph: PolicyGraph) -> nx.MultiDiGraph[str]:
         for choice in place.choices:
             parts = [choice.condition]
             if choice.probability is not None and len(place.choices) > 1:
-                parts.append(f"{choice.probability:.6g}")
+                parts.append(likely(choice.probability, choice.rest, digits=6))
             found.add_edge(str(index), str(choice.place), condition="\n".join(part for part in parts if part))
     return found

@@ -25,11 +25,13 @@ class Choice:
         condition: how it is told from the others; empty where there is no other.
         probability: of it, where what was spent does not matter; None where it depends on that.
         place: the index of the way to go on.
+        rest: the probability of all others together; None where it is not known.
     """
 
     condition: str
     probability: float | None
     place: int
+    rest: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,5 +172,7 @@ def _merged(choices: Sequence[Choice]) -> tuple[Choice, ...]:
     for place, some in groups.items():
         known = [choice.probability for choice in some if choice.probability is not None]
         probability = math.fsum(known) if len(known) == len(some) else None
-        found.append(Choice(" or ".join(dict.fromkeys(c.condition for c in some)), probability, place))
+        others = [choice.probability for choice in choices if choice.place != place]
+        rest = math.fsum(p for p in others if p is not None) if None not in others else None
+        found.append(Choice(" or ".join(dict.fromkeys(c.condition for c in some)), probability, place, rest))
     return tuple(found)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from html import escape
 from typing import TextIO
 
+from statehtn.counted import likely
 from statehtn.display.policy_tree import policy_text
 from statehtn.display.terminal import Summary, rendered
-from statehtn.display.words import FAILURE, NO_CLASS, STOPS, STYLES, Labelled, effort_rows, number
+from statehtn.display.words import FAILURE, NO_CLASS, STOPS, STYLES, Labelled, effort_rows, number, with_unit
 from statehtn.model.status import Status
 from statehtn.policies.result import Looking, PolicyResult
-from statehtn.risk import Success, ValueUnit
+from statehtn.risk import Success
 
 ENDINGS = {
     Status.SOLVED: "solved: there may be a better policy",
@@ -56,14 +57,14 @@ def _rows(result: PolicyResult) -> Labelled:
     rows = [("status", _ending(result) + why)]
     if result.policy is None:
         if result.most_success is not None:
-            rows.append(("done at most", f"with probability {number(result.most_success)}, as far as is known"))
+            rows.append(("done at most", f"with probability {likely(result.most_success)}, as far as is known"))
         return rows
-    unit = "" if result.objective.unit is ValueUnit.COST else f" ({result.objective.unit})"
+    done = likely(result.policy.success_probability, result.policy.failure_probability)
     if isinstance(result.objective, Success):
-        rows.append(("value", f"done with probability {number(result.value)}"))
+        rows.append(("value", f"done with probability {done}"))
     else:
-        rows.append(("value", f"{number(result.value)}{unit} of '{result.objective}'"))
-        rows.append(("done", f"with probability {number(result.success_probability)}"))
+        rows.append(("value", f"{with_unit(result.value, result.objective.unit)} of '{result.objective}'"))
+        rows.append(("done", f"with probability {done}"))
     rows.append(("expected cost", number(result.expected_cost)))
     if result.looking is not None:
         rows.append(("looking", _looking(result.looking)))
@@ -105,5 +106,5 @@ def _bound_rows(result: PolicyResult) -> Labelled:
     if result.status is Status.OPTIMAL:
         return [("proven", f"to within {result.gap:.1g} of the value")] if result.gap else []
     if isinstance(result.objective, Success):
-        return [("proven", f"no policy is done with a probability above {number(bound)} (gap {result.gap:.4g})")]
+        return [("proven", f"no policy is done with a probability above {likely(bound)} (gap {result.gap:.4g})")]
     return [("proven", f"no policy has a value below {number(bound)} (gap {result.gap:.4g})")]

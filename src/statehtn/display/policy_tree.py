@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from html import escape
 
-from statehtn.counted import counted
+from statehtn.counted import counted, likely
 from statehtn.display.policy_outline import MOST_NODES, Choice, Outline, Place, outline
 from statehtn.display.policy_words import OTHERWISE
-from statehtn.display.words import number
 from statehtn.model.policy_graph import End, PolicyGraph
 
 ENDS = {End.DONE: "done", End.FAILED: "failed: nothing is left to try", End.GIVEN_UP: "give up"}
@@ -60,6 +59,6 @@ def _action(place: Place) -> str:
 
 def choice_text(choice: Choice) -> str:
     """Return on which condition a choice is taken, with its probability, such as `if (open door), 0.9:`."""
-    probability = "" if choice.probability is None else f", {number(float(f'{choice.probability:.6g}'))}"
+    probability = "" if choice.probability is None else f", {likely(choice.probability, choice.rest, digits=6)}"
     condition = choice.condition if choice.condition == OTHERWISE else f"if {choice.condition}"
     return f"{condition}{probability}:"

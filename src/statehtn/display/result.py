@@ -8,7 +8,7 @@ from html import escape
 from typing import TextIO
 
 from statehtn.correlation import Correlation
-from statehtn.counted import counted
+from statehtn.counted import counted, likely
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
 from statehtn.display.words import (
@@ -26,6 +26,7 @@ from statehtn.display.words import (
     keep_rows,
     log10_label,
     number,
+    with_unit,
     worth,
 )
 from statehtn.found_plan import PricedStep
@@ -118,17 +119,13 @@ def _notes(result: Result) -> list[str]:
     if result.plan is None:
         return [] if result.lower_bound is None else [_at_least(result, result.lower_bound)]
     utility = result.expected_utility
-    notes = [f"value {_value(result)}" if utility is None else f"expected utility {utility}"]
+    notes = [
+        f"value {with_unit(result.value, result.objective.unit)}" if utility is None else f"expected utility {utility}"
+    ]
     notes += [f"{label}: {text}" for label, text in (*keep_rows(result), *_scenario_rows(result))]
     if result.status is not Status.OPTIMAL and result.lower_bound is not None:
         notes.append(f"no plan has a {worth(result)} below {number(result.lower_bound)}")
     return notes
-
-
-def _value(result: Result) -> str:
-    """Return the value of a plan; with its unit, if it is no cost."""
-    unit = "" if result.objective.unit is ValueUnit.COST else f" ({result.objective.unit})"
-    return f"{number(result.value)}{unit}"
 
 
 def _at_least(result: Result, bound: float) -> str:
@@ -157,7 +154,10 @@ def _scenario_rows(result: Result) -> Labelled:
     shown = sorted(given, key=lambda one: -one.scenario.probability)[:MOST_SCENARIOS]
     if len(given) > MOST_SCENARIOS:
         shown = [min(given, key=lambda one: one.law.mean), max(given, key=lambda one: one.law.mean)]
-    rows = [(f"given {one.scenario}", f"{one.law} (probability {one.scenario.probability:.4g})") for one in shown]
+    rows = [
+        (f"given {one.scenario}", f"{one.law} (probability {likely(one.scenario.probability, digits=4)})")
+        for one in shown
+    ]
     if len(given) > len(shown):
         rows.append(("given others", f"{counted(len(given) - len(shown), 'scenario')} between these two"))
     if (correlation := result.correlation) is not None:
@@ -177,7 +177,7 @@ def _worth_of(correlation: Correlation) -> str:
 def _worth_rows(result: Result) -> Labelled:
     """Return what a plan is worth: to an agent of the paper, or by another objective."""
     if result.expected_utility is None:
-        rows = [("value", f"{_value(result)} of '{result.objective}'")]
+        rows = [("value", f"{with_unit(result.value, result.objective.unit)} of '{result.objective}'")]
         if result.risk_cost is not None and result.objective.unit is not ValueUnit.COST:
             rows.append(("certainty equivalent", number(result.risk_cost)))
         return rows

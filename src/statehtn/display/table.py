@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
 CELL = "padding: 0.1em 0.8em; border: 0"
 MOST_ROWS = 1000  # of a table in HTML
+WHOLE = re.compile(r"[^.e]*")
+"""What stands before the point of a number, or before its exponent."""
 RULE = "border-top: 1px solid rgba(128, 128, 128, 0.6)"
 
 
@@ -75,6 +78,13 @@ class Table:
     def _cell(self, tag: str, text: str, column: Column, style: str = "") -> str:
         align = "right" if column.is_number else "left"
         return f'<{tag} style="{CELL}; text-align: {align}{style}">{escape(text)}</{tag}>'
+
+
+def on_the_point(numbers: Sequence[str]) -> list[str]:
+    """Return numbers with spaces around them, so that their decimal points stand below each other."""
+    wholes = [len(WHOLE.match(number)[0]) for number in numbers]  # type: ignore[index]
+    most = max(wholes, default=0)
+    return _padded([f"{' ' * (most - whole)}{number}" for number, whole in zip(numbers, wholes, strict=True)], False)
 
 
 def _width(text: str) -> int:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from html import escape
 from itertools import repeat
 
+from statehtn.counted import likely
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
 from statehtn.display.words import FAILURE, SUCCESS, Labelled, counted_on, number
@@ -55,7 +56,7 @@ def _verdict(validation: Validation) -> Labelled:
     if not validation.valid:
         return rows
     if validation.probability < 1:
-        rows.append(("probability", f"{number(validation.probability)} that each step comes to what is counted on"))
+        rows.append(("probability", f"{likely(validation.probability)} that each step comes to what is counted on"))
     return [*rows, ("expected cost", number(validation.expected_cost))]
 
 

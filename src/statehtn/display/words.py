@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from statehtn.counted import counted
+from statehtn.counted import counted, likely
 from statehtn.effort import Statistics
 from statehtn.model.status import Status
 from statehtn.result import Result
+from statehtn.risk import ValueUnit
 from statehtn.top_result import TopPlans
 
 Labelled = list[tuple[str, str]]
@@ -24,6 +25,8 @@ STOPS = {
     Status.MEMORY_LIMIT: "memory limit reached",
     Status.INTERRUPTED: "interrupted",
 }
+ROUNDING = 1e-14
+"""Of the sum of a law's probabilities."""
 NO_CLASS = "none of the paper's"
 UNREAD = "but too many tasks to put together before the run ended"
 SUCCESS, FAILURE = "bold green", "bold red"
@@ -36,14 +39,26 @@ def number(value: float | None) -> str:
     return "" if value is None else f"{value:.10g}"
 
 
+def value_text(value: float | None, unit: ValueUnit) -> str:
+    """Return a value of an objective as people write it."""
+    if value is None or unit is not ValueUnit.PROBABILITY or 1 - value < ROUNDING:
+        return number(value)
+    return likely(value)
+
+
+def with_unit(value: float | None, unit: ValueUnit) -> str:
+    """Return a value of an objective with its unit, if it is no cost."""
+    return value_text(value, unit) if unit is ValueUnit.COST else f"{value_text(value, unit)} ({unit})"
+
+
 def counted_on(probability: float) -> str:
     """Return what follows a step of a plan that counts on an outcome with this probability; nothing if it is 1."""
-    return "" if probability == 1 else f"  counts on {number(probability)}"
+    return "" if probability == 1 else f"  counts on {likely(probability)}"
 
 
 def ending(result: Result | TopPlans) -> str:
     """Return how a run ended, in words."""
-    budgets = " and ".join(f"{number(one.budget)} with probability {number(one.probability)}" for one in result.keep)
+    budgets = " and ".join(f"{number(one.budget)} with probability {likely(one.probability)}" for one in result.keep)
     if result.status is Status.UNSOLVABLE and result.largest:
         return f"unsolvable: it is proven that no plan of this problem keeps {budgets}"
     if result.status is not Status.OPTIMAL:
@@ -87,7 +102,7 @@ def keep_rows(result: Result | TopPlans) -> Labelled:
     for one in result.keep:
         if one.attained is not None:
             best = "" if result else " at most, by the plan that is best at it"
-            rows.append((f"within {number(one.budget)}", f"with probability {number(one.attained)}{best}"))
+            rows.append((f"within {number(one.budget)}", f"with probability {likely(one.attained)}{best}"))
     if not result and len(rows) > 1 and all((one.attained or 0) >= one.probability for one in result.keep):
         rows.append(("together", "each of these budgets can be kept, but no plan keeps all of them"))
     return rows

@@ -16,6 +16,7 @@ from statehtn.policies.equations import by_law, log_sum, solution
 
 NEARLY_NEUTRAL = 1e-3
 """Of a slope times the mean: below, an exponential is nearly a line."""
+LARGEST_BELOW_1 = math.nextafter(1.0, 0.0)
 ROUNDING = 1e-9
 """Of solutions relative to their largest: what is less than nothing by more than that has no meaning."""
 
@@ -93,12 +94,19 @@ class Chain:
         return found
 
     def success_probability(self) -> float:
-        """Return the probability that a run comes to its end: that it is done."""
+        """Return the probability that a run comes to its end: that it is done; 1 only where that is certain."""
         flat, sure = self.flat, self.sure
         if sure[0]:
             return 1.0
         values = [1.0 if is_sure else 0.0 for is_sure in sure]
         self._solve(values, flat.probabilities, [0.0] * len(flat), 0.0, sure)
+        return min(LARGEST_BELOW_1, max(0.0, values[0]))
+
+    def failure_probability(self) -> float:
+        """Return the probability that a run is not done, right however small it is."""
+        flat = self.flat
+        values = self._end_values(1.0)
+        self._solve(values, flat.probabilities, [0.0] * len(flat), 1.0, self.sure)
         return min(1.0, max(0.0, values[0]))
 
     def probability_of(self, branches: Collection[int]) -> float:

@@ -145,8 +145,13 @@ class Policy:
 
     @property
     def success_probability(self) -> float:
-        """The probability of being done; a run without an end has failed."""
+        """The probability of being done, 1 only where that is certain; a run without an end has failed."""
         return self._chain.success_probability()
+
+    @property
+    def failure_probability(self) -> float:
+        """The probability of not being done, right however small it is."""
+        return self._chain.failure_probability()
 
     @property
     def expected_cost(self) -> float:

@@ -10,6 +10,7 @@ from itertools import accumulate
 from operator import mul
 from typing import TYPE_CHECKING, Any
 
+from statehtn.counted import likely
 from statehtn.errors import InputError, UsageError
 from statehtn.expected import expect, number, shown, shown_number, whole_number
 from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_function, checked_probability
@@ -257,7 +258,7 @@ class CostDistribution(CostLaw):
             return f"{self.outcomes[0][1]:g}"
         if len(self.outcomes) > MOST_SHOWN:
             return f"{len(self.outcomes)} outcomes from {self.least:g} to {self.most:g}"
-        return ", ".join(f"{cost:g} w.p. {probability:g}" for probability, cost in self.outcomes)
+        return ", ".join(f"{cost:g} w.p. {likely(probability, digits=6)}" for probability, cost in self.outcomes)
 
 
 def _no_outcomes(given: object) -> str:
