@@ -16,6 +16,7 @@ from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.scenario_cost import sum_of
 from statehtn.model.cost.unknown import refuse_unknown
 from statehtn.model.plan import MOST_SHOWN, Plan, Step
+from statehtn.model.plan_outcome import PlanOutcome
 from statehtn.model.problem import Problem
 from statehtn.model.status import Status
 from statehtn.risk import (
@@ -33,8 +34,6 @@ from statehtn.validation import validate
 
 SECONDS_TO_VALIDATE = 0.2
 """A plan that is found right before the time is over is given that long: enough for some thousands of steps."""
-
-CERTAIN = Fraction(1)
 
 PRICES = ("plan", "length", "expected_cost", "risk_cost", "expected_utility", "log10_expected_utility", "value")
 """What the JSON objects say of a plan."""
@@ -75,14 +74,19 @@ class PricedStep:
         expected_cost: the mean of the distribution, positive, in the domain's unit.
         risk_cost: what it adds to the value of the plan, in the same unit: for an agent that the paper knows the
             certainty equivalent of the distribution. None where such prices do not add up.
-        probability: of the outcome that the plan counts on; 1 where the action has no other.
+        outcome: the one that the plan counts on; None where actions have one outcome each.
     """
 
     step: Step
     law: CostLaw
     expected_cost: float
     risk_cost: float | None
-    probability: float = 1.0
+    outcome: PlanOutcome | None = None
+
+    @property
+    def probability(self) -> float:
+        """That the outcome comes which the plan counts on; 1 where the action has no other."""
+        return 1.0 if self.outcome is None else float(self.outcome.probability)
 
     def __repr__(self) -> str:
         price = f"mean {self.expected_cost:.6g}"
@@ -100,7 +104,7 @@ class PricedStep:
             "arguments": list(self.step.arguments),
             "expected_cost": self.expected_cost,
             "risk_cost": self.risk_cost,
-            **({} if self.probability == 1 else {"probability": self.probability}),
+            **({} if self.outcome is None or self.outcome.probability == 1 else self.outcome.to_dict()),
         }
         if isinstance(self.law, CostDistribution):
             return entry | {"outcomes": [list(outcome) for outcome in self.law.outcomes]}
@@ -253,21 +257,21 @@ def value_of(plan: Plan, objective: Objective) -> float:
 
 def _priced_steps(plan: Plan, costs: Sequence[CostLaw], objective: Objective) -> PricedSteps:
     """Return the steps with their prices; a law is priced once, and equal steps of one law are one object."""
-    known: dict[tuple[object, int, Fraction], PricedStep] = {}
+    known: dict[tuple[object, int, PlanOutcome | None], PricedStep] = {}
     prices: dict[int, tuple[float, float | None]] = {}
     is_priced = adds_up(objective, costs)
     price_of = objective.risk_cost if is_priced and isinstance(objective, AdditiveObjective) else lambda _: None
-    chances = (CERTAIN,) * len(costs) if plan.outcomes is None else [one.probability for one in plan.outcomes]
+    outcomes = (None,) * len(costs) if plan.outcomes is None else plan.outcomes
     steps: list[PricedStep] = []
-    for step, law, chance in zip(plan.steps, costs, chances, strict=True):
-        one = known.get((step, id(law), chance))
+    for step, law, outcome in zip(plan.steps, costs, outcomes, strict=True):
+        one = known.get((step, id(law), outcome))
         if one is None:
             if id(law) not in prices:
                 prices[id(law)] = law.mean, price_of(law)
             mean, price = prices[id(law)]
-            if chance != CERTAIN and isinstance(objective, SuccessUtility) and price is not None:
-                price += _price_of(chance, step, objective)
-            one = known[step, id(law), chance] = PricedStep(step, law, mean, price, float(chance))
+            if outcome is not None and isinstance(objective, SuccessUtility) and price is not None:
+                price += _price_of(outcome.probability, step, objective)
+            one = known[step, id(law), outcome] = PricedStep(step, law, mean, price, outcome)
         steps.append(one)
     return PricedSteps(steps)
 

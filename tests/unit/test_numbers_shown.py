@@ -13,6 +13,7 @@ from statehtn.display.comparison import comparison_text
 from statehtn.display.table import on_the_point
 from statehtn.display.words import counted_on, value_text
 from statehtn.model import CostDistribution
+from statehtn.model.plan_outcome import PlanOutcome
 from statehtn.risk import ValueUnit
 from tests.unit.test_why import SLIPPERY, SLIPPERY_ROADS, read
 
@@ -36,7 +37,7 @@ def test_what_is_not_certain_is_not_shown_as_1(probability: float, rest: float |
 
 
 def test_probabilities_everywhere() -> None:
-    assert counted_on(1 - Fraction(1, 10**12)) == "  counts on 1 - 1e-12"
+    assert counted_on(PlanOutcome(1 - Fraction(1, 10**12))) == "1 - 1e-12: nothing changes"
     assert str(CostDistribution.of([(1 - 1e-9, 4), (1e-9, 7)])) == "4 w.p. 1 - 1e-09, 7 w.p. 1e-09"
     assert value_text(1 - 1e-11, ValueUnit.PROBABILITY) == "1 - 1e-11"
     assert value_text(1 - 2**-53, ValueUnit.PROBABILITY) == "1"  # the rounding of a sum

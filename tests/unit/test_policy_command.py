@@ -151,8 +151,15 @@ def test_a_fixed_sequence() -> None:
     law = statehtn.sequence_cost(problem, steps, failure_cost=10)
     assert law.failed == pytest.approx(0.5)
     assert law.outcomes == ((0.5, 4), (0.5, 11))
-    twice = statehtn.sequence_cost(problem, [steps[0], *steps])
+    twice = statehtn.sequence_cost(problem, ["(suck ball)", "(Suck ball)", steps[1]])
     assert twice.failed == pytest.approx(0.75)
+    for wrong, words in (
+        ("(suck bal)", "there is no object 'bal'"),
+        ("(suck)", "expected 1 arguments, found 0"),
+        ("(pull ball)", "no such action"),
+    ):
+        with pytest.raises(statehtn.UsageError, match=words):
+            statehtn.sequence_cost(problem, [wrong])
 
 
 def test_a_policy_is_asked() -> None:

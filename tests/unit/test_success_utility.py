@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import math
+from pathlib import Path
 
 import pytest
 
 import statehtn
 from statehtn import CostDistribution
+from statehtn.cli import main
 from statehtn.errors import UsageError
 from statehtn.risk import SuccessUtility, objective, trajectory_utility
 
@@ -45,6 +48,42 @@ def test_a_plan_of_actions_with_one_outcome_is_that_of_a_seeking_agent() -> None
     assert found.value == pytest.approx(0.3 * seeking.value, rel=1e-9)
     assert (found.status, found.problem_class, found.value_unit) == (seeking.status, "PS10112", "log-utility")
     assert found.risk_cost is None
+
+
+COUNTED = [
+    {"probability": 0.5, "added": ["(in-hand ball)"], "deleted": ["(hand-empty)", "(on-belt ball)"]},
+    {"probability": 1.0, "added": ["(hand-empty)"], "deleted": ["(in-hand ball)"]},
+]
+SHOWN = "0.5: (in-hand ball), not (hand-empty), not (on-belt ball)"
+
+
+def test_what_a_plan_counts_on_is_said_of_each_step(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = ("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p1.hddl")
+    plan = str(tmp_path / "plan.txt")
+    assert main(["plan", *files, "--objective", "success-utility alpha=0.1", "--output", plan]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.endswith(SHOWN) for line in lines if "ball)" in line] == [True, False]
+    assert main(["validate", *files, plan, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["outcomes"] == COUNTED
+    assert main(["validate", *files, plan]) == 0
+    shown = capsys.readouterr().out
+    assert "counts on" in shown.splitlines()[0]
+    assert SHOWN in shown
+    problem = statehtn.read_hddl(*files)
+    found = statehtn.plan(problem, objective="success-utility alpha=0.1")
+    assert found.to_dict()["plan"][0] | COUNTED[0] == found.to_dict()["plan"][0]
+    assert "added" not in found.to_dict()["plan"][1]
+    assert "counts on" in found.steps._repr_html_()
+    assert SHOWN in statehtn.validate(problem, found.plan)._repr_html_()
+
+
+def test_plans_of_actions_with_one_outcome_count_on_none(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    files, plan = ("domains/av/domain.hddl", "domains/av/p1.hddl"), str(tmp_path / "plan.txt")
+    assert main(["plan", *files, "--objective", "success-utility alpha=0.1", "--output", plan]) == 0
+    assert main(["validate", *files, plan]) == 0
+    assert "counts on" not in capsys.readouterr().out
+    assert main(["validate", *files, plan, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["outcomes"] is None
 
 
 def test_one_trajectory() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from statehtn.display.words import number
+from statehtn.display.words import changes_text, number
 from statehtn.model.policy_graph import Branch
 from statehtn.model.problem import Fact
 
@@ -23,14 +23,8 @@ def conditions(outcomes: Sequence[Changes]) -> dict[Changes, str]:
     all_deleted = frozenset.intersection(*(deleted for _, deleted in outcomes))
     texts: dict[Changes, str] = {}
     for added, deleted in outcomes:
-        literals = [_text(fact) for fact in sorted(added - all_added)]
-        literals += [f"not {_text(fact)}" for fact in sorted(deleted - all_deleted)]
-        texts[added, deleted] = " and ".join(literals) or OTHERWISE
+        texts[added, deleted] = changes_text(added - all_added, deleted - all_deleted) or OTHERWISE
     return texts
-
-
-def _text(fact: Fact) -> str:
-    return f"({' '.join(fact)})"
 
 
 def cost_text(branches: Sequence[Branch]) -> str:

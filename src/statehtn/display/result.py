@@ -12,6 +12,7 @@ from statehtn.counted import counted, likely
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
 from statehtn.display.words import (
+    COUNTS_ON,
     FAILURE,
     NO_CLASS,
     STOPS,
@@ -72,7 +73,7 @@ def result_html(result: Result) -> str:
 def steps_html(steps: Sequence[PricedStep]) -> str:
     """Return a table of steps with their costs as HTML for a notebook."""
     has_prices = any(priced.risk_cost is not None for priced in steps) or not steps
-    return Table(_columns("certainty equivalent" if has_prices else None), _rows(steps, has_prices)).to_html()
+    return Table(_columns(steps, "certainty equivalent" if has_prices else None), _rows(steps, has_prices)).to_html()
 
 
 def readable_result(result: Result, stream: TextIO) -> str:
@@ -86,23 +87,30 @@ def readable_result(result: Result, stream: TextIO) -> str:
 
 def _table(result: Result, laws: str = "", title: str = "") -> Table:
     has_prices = adds_up(result.objective, [priced.law for priced in result.steps])
-    totals = ("", "in all", laws, number(result.expected_cost), *([number(result.value)] if has_prices else []))
-    return Table(_columns(worth(result) if has_prices else None), _rows(result.steps, has_prices), totals, title)
+    totals = ["", "in all", laws, number(result.expected_cost), *([number(result.value)] if has_prices else [])]
+    columns, rows = _columns(result.steps, worth(result) if has_prices else None), _rows(result.steps, has_prices)
+    return Table(columns, rows, [*totals, *[""] * (len(columns) - len(totals))], title)
 
 
-def _columns(price: str | None) -> tuple[Column, ...]:
-    """Return the columns of a plan, the last one with what the price of an action is called, where it has one."""
-    return COLUMNS if price is None else (*COLUMNS, Column(price, is_number=True))
+def _columns(steps: Sequence[PricedStep], price: str | None) -> tuple[Column, ...]:
+    """Return the columns of a plan; with what the price of an action is called, where it has one."""
+    prices = () if price is None else (Column(price, is_number=True),)
+    return (*COLUMNS, *prices, Column(COUNTS_ON)) if _counts(steps) else (*COLUMNS, *prices)
+
+
+def _counts(steps: Sequence[PricedStep]) -> bool:
+    """Tell whether a plan counts on outcomes."""
+    return any(priced.outcome is not None and priced.outcome.probability < 1 for priced in steps)
 
 
 def _rows(steps: Sequence[PricedStep], has_prices: bool) -> list[tuple[str, ...]]:
     texts: dict[int, tuple[str, ...]] = {}  # of priced steps, which long plans repeat
-    rows = []
+    rows, counts = [], _counts(steps)
     for index, priced in enumerate(steps, 1):
         if id(priced) not in texts:
-            price = (number(priced.risk_cost),) if has_prices else ()
-            action = f"{priced.step}{counted_on(priced.probability)}"
-            texts[id(priced)] = (action, str(priced.law), number(priced.expected_cost), *price)
+            more = [number(priced.risk_cost)] if has_prices else []
+            more += [counted_on(priced.outcome)] if counts else []
+            texts[id(priced)] = (str(priced.step), str(priced.law), number(priced.expected_cost), *more)
         rows.append((str(index), *texts[id(priced)]))
     return rows
 

@@ -9,7 +9,7 @@ from itertools import repeat
 from statehtn.counted import likely
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
-from statehtn.display.words import FAILURE, SUCCESS, Labelled, counted_on, number
+from statehtn.display.words import COUNTS_ON, FAILURE, SUCCESS, Labelled, counted_on, number
 from statehtn.validation import Validation
 
 COSTS = (Column("cost"), Column("expected", is_number=True))
@@ -25,9 +25,13 @@ def validation_html(validation: Validation) -> str:
         if len(reasons) > MOST_REASONS:
             shown.append(f"and {len(reasons) - MOST_REASONS} more")
         parts.append(f"<ul>{''.join(f'<li>{reason}</li>' for reason in shown)}</ul>")
+    columns = [Column("", is_number=True), *COSTS]
     rows = [(str(index), *cost) for index, cost in enumerate(_costs(validation), 1)]
+    if any(counts := _counts(validation)):
+        columns.append(Column(COUNTS_ON))
+        rows = [(*row, count) for row, count in zip(rows, counts, strict=True)]
     if rows:
-        parts.append(Table((Column("", is_number=True), *COSTS), rows).to_html())
+        parts.append(Table(columns, rows).to_html())
     return f"<div>{''.join(parts)}</div>"
 
 
@@ -37,10 +41,12 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
     if validation.stopped is None:
         states.append(("fails", "", ""))
     states += [("not reached", "", "")] * (len(steps) - len(states))
-    chances = [*_chances(validation), *repeat("", len(steps))]
-    rows = enumerate(zip(steps, chances, states, strict=False), 1)
-    shown = [(str(index), f"{step}{chance}", *state) for index, (step, chance, state) in rows]
-    table = Table((Column("", is_number=True), Column("action"), Column(""), *COSTS), shown)
+    columns = [Column("", is_number=True), Column("action"), Column(""), *COSTS]
+    shown = [(str(index), str(step), *state) for index, (step, state) in enumerate(zip(steps, states, strict=False), 1)]
+    if any(counts := _counts(validation)):
+        columns.append(Column(COUNTS_ON))
+        shown = [(*row, count) for row, count in zip(shown, [*counts, *repeat("", len(shown))], strict=False)]
+    table = Table(columns, shown)
     summary = Summary(_verdict(validation), SUCCESS if validation.valid else FAILURE)
     return rendered([table, summary] if shown else [summary])
 
@@ -60,9 +66,9 @@ def _verdict(validation: Validation) -> Labelled:
     return [*rows, ("expected cost", number(validation.expected_cost))]
 
 
-def _chances(validation: Validation) -> list[str]:
-    """Return for each step that can be executed how likely the outcome is that the plan counts on."""
-    return [counted_on(float(outcome.probability)) for outcome in validation.outcomes or ()]
+def _counts(validation: Validation) -> list[str]:
+    """Return for each step that can be executed which outcome the plan counts on, where actions have several."""
+    return [counted_on(outcome) for outcome in validation.outcomes or ()]
 
 
 def _costs(validation: Validation) -> list[tuple[str, str]]:

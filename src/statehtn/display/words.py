@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from statehtn.counted import counted, likely
 from statehtn.effort import Statistics
+from statehtn.model.plan_outcome import PlanOutcome
+from statehtn.model.problem import Fact
 from statehtn.model.status import Status
 from statehtn.result import Result
 from statehtn.risk import ValueUnit
@@ -27,6 +31,8 @@ STOPS = {
 }
 ROUNDING = 1e-14
 """Of the sum of a law's probabilities."""
+COUNTS_ON = "counts on"
+"""The head of a column."""
 NO_CLASS = "none of the paper's"
 UNREAD = "but too many tasks to put together before the run ended"
 SUCCESS, FAILURE = "bold green", "bold red"
@@ -51,9 +57,23 @@ def with_unit(value: float | None, unit: ValueUnit) -> str:
     return value_text(value, unit) if unit is ValueUnit.COST else f"{value_text(value, unit)} ({unit})"
 
 
-def counted_on(probability: float) -> str:
-    """Return what follows a step of a plan that counts on an outcome with this probability; nothing if it is 1."""
-    return "" if probability == 1 else f"  counts on {likely(probability)}"
+def changes_text(added: Iterable[Fact], deleted: Iterable[Fact], between: str = " and ") -> str:
+    """Return which facts become true and which false, as literals; empty where none does."""
+    literals = [fact_text(fact) for fact in sorted(added)]
+    return between.join(literals + [f"not {fact_text(fact)}" for fact in sorted(deleted)])
+
+
+def fact_text(fact: Fact) -> str:
+    """Return a fact as HDDL has it."""
+    return f"({' '.join(fact)})"
+
+
+def counted_on(outcome: PlanOutcome | None) -> str:
+    """Return which outcome a step of a plan counts on, and how likely it is; empty where nothing else may come."""
+    if outcome is None or outcome.probability == 1:
+        return ""
+    changes = changes_text(outcome.added, outcome.deleted, ", ") or "nothing changes"
+    return f"{likely(outcome.probability)}: {changes}"
 
 
 def ending(result: Result | TopPlans) -> str:

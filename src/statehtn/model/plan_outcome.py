@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from statehtn.model.formula import Fact
 
@@ -21,3 +22,8 @@ class PlanOutcome:
     probability: Fraction
     added: frozenset[Fact] = frozenset()
     deleted: frozenset[Fact] = frozenset()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON has it."""
+        added, deleted = (sorted(f"({' '.join(fact)})" for fact in facts) for facts in (self.added, self.deleted))
+        return {"probability": float(self.probability), "added": added, "deleted": deleted}

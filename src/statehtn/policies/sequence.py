@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from statehtn.errors import UsageError
-from statehtn.expected import expect, items, number
+from statehtn.expected import items, number
 from statehtn.limits import Limits
 from statehtn.model.expect import expect_problem
 from statehtn.model.plan import Plan, Step
@@ -13,6 +13,7 @@ from statehtn.model.policy_graph import Branch, Decision, End, PolicyGraph, Poli
 from statehtn.model.problem import Fact, Problem
 from statehtn.policies.chain import Chain
 from statehtn.policies.total_cost import PolicyCost
+from statehtn.semantics.actions import wrong_arguments
 from statehtn.semantics.outcomes import Transitions
 from statehtn.semantics.world import World
 
@@ -20,7 +21,7 @@ State = frozenset[Fact]
 
 
 def sequence_cost(
-    problem: Problem, steps: Plan | Iterable[Step], failure_cost: float = 0.0, time_limit: float | None = None
+    problem: Problem, steps: Plan | Iterable[Step | str], failure_cost: float = 0.0, time_limit: float | None = None
 ) -> PolicyCost:
     """Return the law of what a fixed sequence of actions costs, whatever their outcomes are.
 
@@ -31,27 +32,30 @@ def sequence_cost(
 
     Args:
         problem: the problem, in which actions may have several outcomes.
-        steps: the actions, or a plan.
+        steps: the actions, such as `["(suck ball)", "(place ball)"]` or `Step("suck", ("ball",))`; or a plan.
         failure_cost: what failing costs on top of what was spent, at least 0; may be infinite.
         time_limit: seconds.
 
     Raises:
-        UsageError: these are no steps, or the failure cost is negative.
-        InputError: a cost or a probability is not defined.
+        UsageError: these are no steps of the problem, or the failure cost is negative.
+        InputError: a text is no action; a cost or a probability is not defined.
         LimitReached: the time is over.
     """
-    listed = steps.steps if isinstance(steps, Plan) else items(steps, "the steps")
-    write = "write statehtn.Step(name, objects)"
-    wanted = [expect(step, Step, "expected the steps of a sequence", write) for step in listed]
+    from statehtn.hddl.action_list import actions_of  # the reader takes a moment to import
+
+    expect_problem(problem)
+    wanted = actions_of(steps.steps if isinstance(steps, Plan) else items(steps, "the steps"), problem)
     price = number(failure_cost, "the failure cost")
     if not price >= 0:
         raise UsageError(f"the failure cost must be at least 0, found {price:g}")
-    for step in wanted:
-        if step.action not in expect_problem(problem).domain.actions:
-            raise UsageError(f"there is no action '{step.action}'")
     limits = Limits.starting_now(time_limit)
-    world = World(expect_problem(problem), limits)
-    return PolicyCost(Chain(_graph(problem, wanted, Transitions(world), limits).flat), price)
+    world = World(problem, limits)
+    for step in wanted:
+        action = problem.domain.actions.get(step.action)
+        wrong = wrong_arguments(action.parameters, step.arguments, world) if action is not None else "no such action"
+        if wrong is not None:
+            raise UsageError(f"step {step}: {wrong}")
+    return PolicyCost(Chain(_graph(problem, list(wanted), Transitions(world), limits).flat), price)
 
 
 def _graph(problem: Problem, steps: list[Step], transitions: Transitions, limits: Limits) -> PolicyGraph:

@@ -75,6 +75,7 @@ class Validation:
             "executed": len(self.costs),
             "expected_cost": self.expected_cost if self.valid else None,
             "probability": self.probability if self.valid else None,
+            "outcomes": None if self.outcomes is None else [outcome.to_dict() for outcome in self.outcomes],
         }
 
     def __repr__(self) -> str:
