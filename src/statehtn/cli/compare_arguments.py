@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from statehtn.cli.epilogs import COMPARE_EPILOG
+from statehtn.cli.epilogs import COMPARE_EPILOG, WRITING
 from statehtn.cli.parser import Parser
 from statehtn.cli.shared_options import add_keep, count
 from statehtn.compatible import HEURISTIC_CHOICES, NOTHING, SOLVERS
@@ -85,7 +85,7 @@ def add_report(commands: Commands) -> None:
         help="write a page about the results of a comparison",
         description="Write one page of HTML about the results of 'statehtn compare': the paper's tables beside these, "
         "the distributions of the plans' costs, the solvers against each other, coverage. It needs no network.",
-        epilog="Exit codes: 0 written, 2 usage, 30 input error, 74 cannot write.",
+        epilog=f"Exit codes: 0 written, 2 usage, 30 input error, 74 cannot write. {WRITING}",
         allow_abbrev=False,
     )
     parser.add_argument("results", metavar="FILE.csv", help="the table of results; FILE.jsonl is expected beside it")

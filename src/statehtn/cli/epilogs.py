@@ -14,32 +14,41 @@ _AUTO = (
     "and lmcut one after the other"
 )
 
-PLAN_EPILOG = """objectives:
-{}
+WRITING = (
+    "An output file for which there is no directory, say, is wrong usage (2);\n"
+    "where writing fails later (74), the disk is full, say."
+)
+"""What the help of commands that write files says of the exit codes for that."""
+
+PLAN_EPILOG = f"""objectives:
+{{}}
 
 heuristics:
-{}
+{{}}
 
 exit codes:
-  0 plan found    10 proven unsolvable    20 time limit      30 input error             130 interrupted
-  2 usage         12 search exhausted     21 memory limit    31 unsupported feature
+  0 plan found    10 proven unsolvable    20 time limit      30 input error             74 cannot write
+  2 usage         12 search exhausted     21 memory limit    31 unsupported feature     130 interrupted
+{WRITING}
 """
 
-POLICY_EPILOG = """objectives:
-{}
+POLICY_EPILOG = f"""objectives:
+{{}}
 
 exit codes:
-  0 policy found  10 proven unsolvable    20 time limit      30 input error             130 interrupted
-  2 usage         12 search exhausted     21 memory limit    31 unsupported feature     74 cannot write
+  0 policy found  10 proven unsolvable    20 time limit      30 input error             74 cannot write
+  2 usage         12 search exhausted     21 memory limit    31 unsupported feature     130 interrupted
+{WRITING}
 """
 
-TOP_EPILOG = """exit codes:
-  0 plans found   10 proven unsolvable    21 memory limit    31 unsupported feature
-  2 usage         20 time limit           30 input error     130 interrupted
+TOP_EPILOG = f"""exit codes:
+  0 plans found   10 proven unsolvable    21 memory limit    31 unsupported feature     130 interrupted
+  2 usage         20 time limit           30 input error     74 cannot write
 What was found before a limit is printed, with exit code 0; the output says how much of it is proven.
+{WRITING}
 """
 
-COMPARE_EPILOG = """suites:
+COMPARE_EPILOG = f"""suites:
   paper            what the paper reports: vehicles and satellites, by all solvers
   satellite-large  satellites of the size at which the paper's planner had no memory left, by all solvers
   ipc              every problem in a folder (--root), such as the competition's benchmarks
@@ -54,6 +63,7 @@ statuses of a run, besides those of 'statehtn plan':
 
 exit codes: 0 every run is recorded, 2 usage, 30 wrong suite, folder or file, 69 no cluster, 74 cannot write,
 130 interrupted
+{WRITING}
 """
 
 

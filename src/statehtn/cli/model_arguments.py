@@ -20,8 +20,8 @@ Each finding is a line: FILE:LINE:COL: level: what it is; what to do [code]. Err
 leave no plan, warnings are likely slips, notes are neither: what a problem merely does not use is a note.
 
 exit codes:
-  0 no errors and no warnings    2 usage             21 memory limit     130 interrupted
-  1 errors or warnings           20 time limit       30 a file cannot be read at all
+  0 no errors and no warnings    2 usage             21 memory limit                     74 cannot write
+  1 errors or warnings           20 time limit       30 a file cannot be read at all     130 interrupted
 """
 
 WHY_EPILOG = """examples:
@@ -33,8 +33,8 @@ A plan is a file in the IPC 2020 format, or a list of actions, one in each line.
 the points where nothing goes on, are looked for during at most 10 seconds each.
 
 exit codes:
-  0 answered      20 time limit      30 input error             130 interrupted
-  2 usage         21 memory limit    31 unsupported feature
+  0 answered      20 time limit      30 input error             74 cannot write
+  2 usage         21 memory limit    31 unsupported feature     130 interrupted
 """
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from statehtn.cli.epilogs import TOP_EPILOG
+from statehtn.cli.epilogs import TOP_EPILOG, WRITING
 from statehtn.cli.parser import Parser
 from statehtn.cli.shared_options import add_agent, add_inputs, add_limits, add_objective, count
 from statehtn.core.heuristics import ADMISSIBLE, HEURISTICS
@@ -62,7 +62,7 @@ def add_validate(commands: Commands) -> None:
         description="Check a plan with its decomposition (IPC 2020 format), independently of the search; or a list of "
         "actions, one in each line, for which a decomposition is searched.",
         epilog="Exit codes: 0 valid, 1 invalid, 2 usage, 20 time limit, 21 memory limit, 30 input error, "
-        "31 unsupported feature.",
+        "31 unsupported feature, 74 cannot write, 130 interrupted.",
         allow_abbrev=False,
     )
     add_inputs(parser)
@@ -79,7 +79,7 @@ def add_graph(commands: Commands) -> None:
         description="Write a graph of the problem: the task decomposition graph of the domain (cv-tdg), that of the "
         "ground problem with the least risk cost of every task and method for an agent (gcv-tdg), or the relaxed model "
         "of the initial state and network.",
-        epilog="Exit codes: 0 written, 2 usage, 30 input error, 31 unsupported feature, 74 cannot write.",
+        epilog=f"Exit codes: 0 written, 2 usage, 30 input error, 31 unsupported feature, 74 cannot write. {WRITING}",
         allow_abbrev=False,
     )
     add_inputs(parser)

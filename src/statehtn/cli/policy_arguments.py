@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from statehtn.cli.epilogs import policy_epilog
+from statehtn.cli.epilogs import WRITING, policy_epilog
 from statehtn.cli.parser import Parser
 from statehtn.cli.shared_options import add_inputs, add_limits, add_policy_agent
 
@@ -38,8 +38,8 @@ def add_export(commands: argparse._SubParsersAction[Parser]) -> None:
         help="write the problem, or its best policy, for a model checker",
         description="Write the Markov decision process of all states and networks that can be reached, or with "
         "--policy the Markov chain of the best policy by an objective, in the language of PRISM and Storm.",
-        epilog="Exit codes: 0 written, 10 no policy, 2 usage, 20 time limit, 21 memory limit, 30 input error, "
-        "31 unsupported feature, 74 cannot write.",
+        epilog="Exit codes: 0 written, 2 usage, 10 proven that there is no policy, 12 none found, 20 time limit, "
+        f"21 memory limit, 30 input error, 31 unsupported feature, 74 cannot write, 130 interrupted. {WRITING}",
         allow_abbrev=False,
     )
     add_inputs(parser)

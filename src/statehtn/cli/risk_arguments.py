@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
+from statehtn.cli.epilogs import WRITING
 from statehtn.cli.parser import Parser
 from statehtn.cli.shared_options import add_inputs, add_keep, add_limits
 from statehtn.compatible import HEURISTIC_CHOICES
@@ -17,7 +18,7 @@ ATTITUDE_EPILOG = """examples:
 Costs: lower is better. alpha is negative for a risk-seeking person, 0 for a neutral and positive for an averse one:
 --attitude averse --alpha A is the agent with alpha = A, --attitude seeking --alpha A that with alpha = -A.
 
-exit codes: 0 answered (contradictions included), 2 usage, 30 a lottery that says nothing
+exit codes: 0 answered (contradictions included), 2 usage, 30 a lottery that says nothing, 74 cannot write
 """
 
 
@@ -60,8 +61,8 @@ def add_atlas(commands: argparse._SubParsersAction[Parser]) -> None:
         help="write a page about one problem: its best plans for every attitude to risk",
         description="Find the best plans of all agents from risk-seeking to risk-averse, those for deadlines and for "
         "wealth, and the frontiers of mean and risk, and write a page of HTML that shows them. It needs no network.",
-        epilog="Exit codes: as of 'statehtn plan'; 0 if there is a map, also where a limit has left a part open; "
-        "74 cannot write.",
+        epilog="Exit codes: as of 'statehtn plan'; 0 if there is a map, also where a limit has left a part open. "
+        f"{WRITING}",
         allow_abbrev=False,
     )
     add_inputs(parser)
