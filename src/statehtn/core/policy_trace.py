@@ -20,6 +20,8 @@ _ENDS = {
     _relax.PolicyEnd.NothingLeft: End.FAILED,
     _relax.PolicyEnd.GivesUp: End.GIVEN_UP,
 }
+CONDITION = "condition"
+"""The name of a task of a network that stands for what must hold there: the precondition of a method, or the goal."""
 
 
 class PolicyReader:
@@ -128,7 +130,33 @@ class PolicyReader:
         else:
             compound = number - handle.action_count
             schema, arguments = handle.compound_schema[compound], handle.compound_arguments(compound)
+        if schema < len(grounding.encoding.actions) and grounding.encoding.actions[schema] is None:
+            return Step(CONDITION, self._condition(number))
         return Step(grounding.task_name(schema), grounding.objects(arguments))
+
+    def _condition(self, test: int) -> tuple[str, ...]:
+        """Return what a precondition action, or the choice of one of several cases of it, asks for, as in HDDL.
+
+        Equal preconditions of several methods are one action of the ground problem, whose own name is that of one of
+        them and says nothing of the method that was chosen.
+        """
+        handle = self.grounding.handle
+        if test >= handle.action_count:
+            cases = [self._condition(case) for method in self._cases[test] for case in handle.method_subtasks(method)]
+            texts = (" ".join(case) if len(case) == 1 else f"(and {' '.join(case)})" for case in cases)
+            return (f"(or {' '.join(texts)})",)
+        wanted = sorted(f"({' '.join(self._fact(fact))})" for fact in handle.preconditions(test))
+        unwanted = sorted(f"(not ({' '.join(self._fact(fact))}))" for fact in handle.negative_preconditions(test))
+        return (*wanted, *unwanted)
+
+    @cached_property
+    def _cases(self) -> dict[int, list[int]]:
+        """The methods of each compound task that is only in the ground problem."""
+        handle, found = self.grounding.handle, dict[int, list[int]]()
+        for method in range(handle.method_count):
+            if not self._is_of_the_domain(task := handle.method_task(method)):
+                found.setdefault(task, []).append(method)
+        return found
 
 
 class PolicyNodes(Sequence[PolicyNode]):

@@ -73,7 +73,8 @@ class PolicyNode:
 
     Args:
         facts: the ground facts that hold, of those that matter from here on.
-        tasks: the tasks of the network; those that only the ground problem knows have its names.
+        tasks: the tasks of the network. What must hold at some point, a precondition of a method or the goal, is a task
+            `condition` of literals, such as `(condition (in-hand cup) (not (torn)))`.
         order: pairs (i, j) of indices into the tasks: i before j.
         decision: None at an end.
         end: why a run is over here; None where it goes on.
