@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
-from itertools import repeat
 
 from statehtn.counted import likely
 from statehtn.display.table import Column, Table
@@ -25,13 +24,9 @@ def validation_html(validation: Validation) -> str:
         if len(reasons) > MOST_REASONS:
             shown.append(f"and {len(reasons) - MOST_REASONS} more")
         parts.append(f"<ul>{''.join(f'<li>{reason}</li>' for reason in shown)}</ul>")
-    columns = [Column("", is_number=True), *COSTS]
     rows = [(str(index), *cost) for index, cost in enumerate(_costs(validation), 1)]
-    if any(counts := _counts(validation)):
-        columns.append(Column(COUNTS_ON))
-        rows = [(*row, count) for row, count in zip(rows, counts, strict=True)]
     if rows:
-        parts.append(Table(columns, rows).to_html())
+        parts.append(_table((Column("", is_number=True), *COSTS), rows, validation).to_html())
     return f"<div>{''.join(parts)}</div>"
 
 
@@ -41,12 +36,8 @@ def readable_validation(validation: Validation, steps: Sequence[object]) -> str:
     if validation.stopped is None:
         states.append(("fails", "", ""))
     states += [("not reached", "", "")] * (len(steps) - len(states))
-    columns = [Column("", is_number=True), Column("action"), Column(""), *COSTS]
     shown = [(str(index), str(step), *state) for index, (step, state) in enumerate(zip(steps, states, strict=False), 1)]
-    if any(counts := _counts(validation)):
-        columns.append(Column(COUNTS_ON))
-        shown = [(*row, count) for row, count in zip(shown, [*counts, *repeat("", len(shown))], strict=False)]
-    table = Table(columns, shown)
+    table = _table((Column("", is_number=True), Column("action"), Column(""), *COSTS), shown, validation)
     summary = Summary(_verdict(validation), SUCCESS if validation.valid else FAILURE)
     return rendered([table, summary] if shown else [summary])
 
@@ -66,9 +57,13 @@ def _verdict(validation: Validation) -> Labelled:
     return [*rows, ("expected cost", number(validation.expected_cost))]
 
 
-def _counts(validation: Validation) -> list[str]:
-    """Return for each step that can be executed which outcome the plan counts on, where actions have several."""
-    return [counted_on(outcome) for outcome in validation.outcomes or ()]
+def _table(columns: Sequence[Column], rows: Sequence[Sequence[str]], validation: Validation) -> Table:
+    """Return a table of steps; with the outcomes that the plan counts on, where it does."""
+    counts = [counted_on(outcome) for outcome in validation.outcomes or ()]
+    if not any(counts):
+        return Table(columns, rows)
+    counts += [""] * (len(rows) - len(counts))
+    return Table((*columns, Column(COUNTS_ON)), [(*row, count) for row, count in zip(rows, counts, strict=True)])
 
 
 def _costs(validation: Validation) -> list[tuple[str, str]]:
