@@ -26,10 +26,12 @@ DECIDED_OF_FEW = 0.5
 SUPPRESSED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 
 settings.register_profile("dev", max_examples=30, deadline=None, suppress_health_check=SUPPRESSED)
-settings.register_profile("ci", max_examples=100, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
+settings.register_profile("ci", max_examples=60, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
 settings.register_profile("objectives", max_examples=200, deadline=None, suppress_health_check=SUPPRESSED)
-settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
+settings.register_profile(
+    "mutation", settings.get_profile("ci"), max_examples=100, phases=[Phase.explicit, Phase.generate]
+)
 settings.load_profile("dev")
 
 # A shell starts its background jobs with Ctrl-C ignored, `nohup` with hang-ups ignored, and CI may do both; what they

@@ -38,7 +38,7 @@ from tests.random_graphs import ALPHAS, LEVELS
 from tests.random_outcomes import chance_problems, wide_problems
 from tests.shares import share_of_examples
 
-SHARE = share_of_examples(3)
+SHARE = share_of_examples(2)
 LIMITS = Limits(steps=200_000)
 PRECISION = 1e-9
 CLOSE = {"rel": 1e-7, "abs": 1e-8}

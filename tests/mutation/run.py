@@ -126,7 +126,7 @@ class Failure:
 
 
 def failure(tests: Sequence[str]) -> Failure | None:
-    """The first test that does not pass, of as many examples as in CI; None if all do."""
+    """The first test that does not pass, of 100 examples; None if all do."""
     options = ("-q", "-x", "-p", "no:cacheprovider", "--hypothesis-profile=mutation")
     for test in tests:
         command = (sys.executable, "-m", "pytest", *options, test)
