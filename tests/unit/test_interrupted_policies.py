@@ -11,6 +11,12 @@ from pathlib import Path
 
 import pytest
 
+import statehtn
+from statehtn import Status
+from statehtn.limits import LimitReached, Limits
+from statehtn.policies import total_cost
+from statehtn.policies.total_cost import PolicyCost
+from statehtn.policies.totals import Totals
 from tests.processes import start, wait_until_signals_are_caught
 
 SECONDS_OF_WORK = 2.0
@@ -94,3 +100,24 @@ def test_what_is_known_by_then_comes_out(
         assert found["success_probability"] == pytest.approx(1)
     else:
         assert (found["policy"], found["upper_bound"]) == (None, None)
+
+
+def test_a_limit_before_the_law_is_known_leaves_what_the_search_has_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The law of the total cost may take longer than the search: limits hold for it, too."""
+    model = statehtn.read_hddl("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p1.hddl")
+    whole = statehtn.policy(model, objective="deadline 10")
+    law = whole.policy.cost_distribution()
+    over = Limits(deadline=time.monotonic() - 1)
+    again = PolicyCost(law.chain)
+    with pytest.raises(LimitReached), again.within(over):
+        again.cdf(10)
+    assert again.cdf(10) == law.cdf(10)
+
+    def too_long(*_: object) -> Totals:
+        raise LimitReached(Status.TIME_LIMIT)
+
+    monkeypatch.setattr(total_cost, "totals_of", too_long)
+    stopped = statehtn.policy(model, objective="deadline 10")
+    assert stopped.stopped is Status.TIME_LIMIT
+    assert stopped.value == pytest.approx(whole.value)
+    assert json.dumps(stopped.to_dict())

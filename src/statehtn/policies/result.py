@@ -57,7 +57,9 @@ class PolicyResult:
         looking: what it is worth to look at costs, where that was asked for and the plan was found.
         has_outcomes: whether actions of the problem have several outcomes.
         validated: how the policy was checked against the lifted problem, in words; None where it was not.
-        searched: what the search has found the policy to be worth.
+        value: what the policy is worth by the objective, in its unit, worked out from the policy alone. It is
+            minimised, but for `success`, whose value is the probability of being done. Where that takes the law of the
+            total cost, and it has too many amounts or a limit came first, it is what the search has found.
     """
 
     status: Status
@@ -71,7 +73,7 @@ class PolicyResult:
     looking: Looking | None = None
     has_outcomes: bool = False
     validated: str | None = None
-    searched: float | None = None
+    value: float | None = None
 
     def __bool__(self) -> bool:
         """Tell whether there is a policy."""
@@ -107,20 +109,6 @@ class PolicyResult:
     def problem_class(self) -> str | None:
         """The paper's RA-parameters of what was solved, such as `PSn0110`; None where the paper has no such class."""
         return self.settings.problem_class(self.has_outcomes)
-
-    @cached_property
-    def value(self) -> float | None:
-        """What the policy is worth by the objective, in its unit: worked out from the policy alone.
-
-        It is minimised, but for `success`, whose value is the probability of being done. Where the law of the total
-        cost has too many values to be worked out, it is what the search has found.
-        """
-        if self.policy is None:
-            return None
-        try:
-            return self.policy.value
-        except UnsupportedError:
-            return self.searched
 
     @cached_property
     def success_probability(self) -> float | None:

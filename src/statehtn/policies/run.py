@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 
 from statehtn.core.grounding import Grounding
@@ -11,7 +12,7 @@ from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_search import search_policy
 from statehtn.core.progress import SearchProgress
 from statehtn.effort import Meter
-from statehtn.errors import InputError, UsageError
+from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.found_plan import SECONDS_TO_VALIDATE
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.log import log
@@ -45,6 +46,7 @@ def find_policy(
     try:
         run.search()
         run.check()
+        run.evaluate()
         run.look()
     except ENDINGS as ending:
         run.stopped = status_of(ending)
@@ -72,6 +74,7 @@ class PolicyPipeline:
         self.meter = Meter()
         self.outcome: PolicyOutcome | None = None
         self.policy: Policy | None = None
+        self.value: float | None = None
         self.looking: Looking | None = None
         self.stopped: Status | None = None
         self.validated: str | None = None
@@ -99,6 +102,8 @@ class PolicyPipeline:
         if self.outcome.graph is not None:
             how = self.settings.objective, self.settings.failure_cost, self.outcome.plan_of
             self.policy = Policy(problem, self.outcome.graph, *how)
+            is_success = isinstance(self.settings.objective, Success)
+            self.value = self.outcome.lower if is_success else self.outcome.upper
 
     def _searched(self, grounding: Grounding) -> PolicyOutcome:
         settings = self.settings
@@ -135,24 +140,41 @@ class PolicyPipeline:
         if self.policy is None:
             return
         grounding = self.session.ground_for_policies(self.limits, self.meter)
+        with self._in_time() as left:
+            self.validated = str(check_policy(self.policy, grounding.seen_facts(), left))
+
+    def evaluate(self) -> None:
+        """Work out what the policy is worth from the policy alone, as far as limits and Ctrl-C let it."""
+        if self.policy is None:
+            return
+        with self._in_time() as left, self.policy.cost_distribution().within(left):
+            try:
+                self.value = self.policy.value
+            except UnsupportedError:
+                log.info("the law of the total cost has too many values: the value is that of the search")
+            except InputError:
+                self.value = math.inf
+
+    @contextmanager
+    def _in_time(self) -> Iterator[Limits]:
+        """Yield limits for what is done with the policy in hand; note what ends it, and keep what there is."""
         left = self.limits.with_grace(SECONDS_TO_VALIDATE, is_over=self.stopped is not None)
         try:
             with self.meter.timed("validate"):
-                self.validated = str(check_policy(self.policy, grounding.seen_facts(), left))
+                yield left
         except ENDINGS as ending:
             self.stopped = self.stopped or status_of(ending)
 
     def look(self) -> None:
         """Find the best plan, which looks at no costs, where that is asked for."""
         objective = self.settings.objective
-        if not self.settings.adaptive or self.policy is None or isinstance(objective, Success):
+        if not self.settings.adaptive or self.value is None or isinstance(objective, Success):
             return
         settings = Settings.of(objective, precision=self.settings.precision)
         found = solve(self.session, settings, self.limits)
         self.meter.note(search=self.meter.read().and_search(found.statistics).search)
-        value = self.result().value
-        if found.found is not None and value is not None:
-            worth = found.found.value - value
+        if found.found is not None:
+            worth = found.found.value - self.value
             self.looking = Looking(found.found, found.status is Status.OPTIMAL, worth)
 
     def result(self) -> PolicyResult:
@@ -174,5 +196,5 @@ class PolicyPipeline:
             self.looking,
             self.has_outcomes,
             self.validated,
-            found.lower if is_success else found.upper,
+            self.value,
         )
