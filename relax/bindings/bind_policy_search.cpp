@@ -20,6 +20,7 @@
 #include "python_limits.hpp"
 #include "relax/policies/cut_source.hpp"
 #include "relax/policies/network_source.hpp"
+#include "relax/policies/policy_chord.hpp"
 #include "relax/policies/policy_trace.hpp"
 #include "relax/policies/spending_source.hpp"
 #include "relax/progression/relevant_facts.hpp"
@@ -167,6 +168,31 @@ public:
         return result;
     }
 
+    // Of an averse agent's run. Returns what ended it, and the chord's values at both ends, if there is one.
+    std::pair<std::optional<relax::StopReason>, std::optional<std::pair<double, double>>> chord(
+        const relax::ChordPrices& prices, Seconds seconds, Bytes bytes, Steps steps) {
+        if (options_.recursion != relax::Recursion::Averse || !search_ || search_->graph().size() == 0) {
+            throw std::invalid_argument("there must be what an averse agent's search has explored");
+        }
+        const auto is_inside = [&](double x) { return prices.low <= x && x <= prices.high; };
+        if (!(prices.low >= 0 && prices.low < prices.high && prices.high <= prices.explored && prices.touching > 0 &&
+              is_inside(prices.touching))) {
+            throw std::invalid_argument("the chord's interval is none, or leads beyond what was explored");
+        }
+        limits_ = python_limits(seconds, bytes, steps);
+        std::optional<relax::Chord> found;
+        std::optional<relax::StopReason> stop;
+        {
+            const nb::gil_scoped_release no_gil;
+            stop = relax::run_within_limits([&]() -> std::optional<relax::StopReason> {
+                found = relax::chord_below(*source_, *search_, prices, limits_);
+                return std::nullopt;
+            });
+        }
+        limits_ = relax::Limits();
+        return {stop, found ? std::optional(std::pair(found->at_low, found->at_high)) : std::nullopt};
+    }
+
     const relax::PolicyTrace& trace() const {
         if (!trace_) {
             throw std::out_of_range("there is no policy");
@@ -271,6 +297,22 @@ void bind_policy_search(nb::module_& module) {
         .def("certain_cost", &PolicyRun::certain_cost, "worth"_a)
         .def("run", &PolicyRun::run, "left"_a = 0, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(),
              "steps"_a = nb::none(), "progress"_a = nb::none())
+        .def(
+            "chord",
+            [](PolicyRun& self, const std::pair<Amounts, Amounts>& at_low, const std::pair<Amounts, Amounts>& at_high,
+               double low, double high, double touching, double explored, std::pair<double, double> enough,
+               Seconds seconds, Bytes bytes, Steps steps) {
+                return self.chord({{at_low.first, at_low.second},
+                                   {at_high.first, at_high.second},
+                                   low,
+                                   high,
+                                   touching,
+                                   explored,
+                                   {enough.first, enough.second}},
+                                  seconds, bytes, steps);
+            },
+            "at_low"_a, "at_high"_a, "low"_a, "high"_a, "touching"_a, "explored"_a, "enough"_a,
+            "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(), "steps"_a = nb::none())
         .def_prop_ro("ends", [](const PolicyRun& self) { return self.trace().ends; })
         .def_prop_ro("first", [](const PolicyRun& self) { return self.trace().first; })
         .def_prop_ro("probabilities", [](const PolicyRun& self) { return self.trace().probabilities; })

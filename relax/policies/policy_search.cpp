@@ -11,6 +11,7 @@ constexpr std::uint32_t kRoundsUntilIteration = 8;  // without an open node, whi
 constexpr std::uint32_t kQuietIterations = 4;       // then all that is explored is taken into the envelope
 constexpr std::size_t kUpperGrowth = 8;             // of what is explored, until an upper worth is found again
 constexpr std::size_t kPlunges = 1000;              // per round at least
+constexpr std::uint32_t kRoundsAside = 64;          // from a node that is not the root
 
 }  // namespace
 
@@ -88,6 +89,16 @@ void PolicySearch::search() {
             }
         }
     }
+}
+
+void PolicySearch::explore_from(std::span<const PolicyNodeId> nodes) {
+    const PolicyNodeId root = root_;
+    for (const PolicyNodeId node : nodes) {
+        root_ = node;
+        for (std::uint32_t count = 0; count < kRoundsAside && explore(); ++count) {
+        }
+    }
+    root_ = root;
 }
 
 // Go through the best policy once; says whether an open node was met.

@@ -869,6 +869,19 @@ class PolicyRun:
         steps: int | None = None,
         progress: object | None = None,
     ) -> PolicySearchResult: ...
+    def chord(
+        self,
+        at_low: tuple[Sequence[float], Sequence[float]],
+        at_high: tuple[Sequence[float], Sequence[float]],
+        low: float,
+        high: float,
+        touching: float,
+        explored: float,
+        enough: tuple[float, float],
+        seconds: float | None = None,
+        memory_bytes: int | None = None,
+        steps: int | None = None,
+    ) -> tuple[StopReason | None, tuple[float, float] | None]: ...
     @property
     def ends(self) -> list[PolicyEnd]: ...
     @property

@@ -5,12 +5,15 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
+from unittest import mock
 
 import pytest
 
 import statehtn
 from statehtn import CostDistribution, Status
 from statehtn.cli.program import main
+from statehtn.limits import LimitReached
+from statehtn.policies.evar import EvarSearch
 
 GRIPPER = ("domains/gripper-robot/domain.hddl", "domains/gripper-robot/p1.hddl")
 VEHICLE = ("domains/av/domain.hddl", "domains/av/p1.hddl")
@@ -192,10 +195,21 @@ def test_a_run_that_may_end_late_has_an_infinite_value_at_risk() -> None:
 
 def test_the_entropic_value_at_risk() -> None:
     """The claw never holds here, so that there is one policy; its law says what it is worth."""
-    result = statehtn.policy(statehtn.read_hddl(*GRIPPER), objective="evar 0.9", precision=1e-3)
+    result = statehtn.policy(statehtn.read_hddl(*GRIPPER), objective="evar 0.9")
     assert result.status is Status.OPTIMAL
     assert result.value == pytest.approx(result.policy.cost_distribution().evar(0.9), rel=1e-12)
-    assert result.value - result.lower_bound <= 1e-3 * result.value
+    assert result.gap <= 1e-6 * result.value
+    assert result.statistics.search.expanded < 100
+
+
+def test_a_limit_leaves_the_policy_of_least_entropic_value_at_risk_so_far() -> None:
+    """The neutral agent's policy comes first; what no policy can be below is its expected cost."""
+    with mock.patch.object(EvarSearch, "_run_at", side_effect=LimitReached(Status.TIME_LIMIT)):
+        result = statehtn.policy(statehtn.read_hddl(*GRIPPER), objective="evar 0.9")
+    assert (result.status, result.stopped) == (Status.SOLVED, Status.TIME_LIMIT)
+    assert result.value == pytest.approx(10.589009175621065)
+    assert result.lower_bound == pytest.approx(5, rel=1e-6)
+    assert result.gap == pytest.approx(result.value - result.lower_bound)
 
 
 def test_results_show_themselves() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from statehtn.core.policy_chord import ExploredPolicies
 from statehtn.effort import SearchEffort
 from statehtn.model.plan import Plan
 from statehtn.model.policy_graph import PolicyGraph
@@ -26,6 +27,7 @@ class PolicyOutcome:
         reason: why there is no policy, or none is known; None where there is one.
         most_success: where there is no policy, the largest probability of being done, as far as it was found.
         plan_of: the plan, with its decomposition, of a run of the policy as branches of `graph.flat` from the root on.
+        explored: what an averse agent's search has explored; None after other searches.
     """
 
     status: Status
@@ -37,3 +39,4 @@ class PolicyOutcome:
     reason: str | None = None
     most_success: float | None = None
     plan_of: Callable[[Sequence[int]], Plan] | None = None
+    explored: ExploredPolicies | None = None

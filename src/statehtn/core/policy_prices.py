@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 import statehtn._relax as _relax
+from statehtn.core.policy_chord import ExploredPolicies
 from statehtn.core.policy_laws import BranchLaws
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem
@@ -54,7 +55,10 @@ class PricedPolicies(PolicyRun):
         run.take_amounts(actions, parts, *none, stop, abs(self.slope) * prices.unit, self.problem.heuristic)
         found = self.start(run, limits)
         laws = BranchLaws(self.problem.grounding)
-        return self.finished(found.lower, found.upper, run, laws, found.upper < math.inf)
+        outcome = self.finished(found.lower, found.upper, run, laws, found.upper < math.inf)
+        if self.recursion != _relax.Recursion.Averse or found.expanded == 0:
+            return outcome
+        return replace(outcome, explored=ExploredPolicies(self.problem, run, 1 / self.slope))
 
 
 class SuccessPolicies(PolicyRun):

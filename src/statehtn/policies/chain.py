@@ -30,6 +30,7 @@ class Chain:
 
     def __init__(self, flat: FlatPolicy) -> None:
         self.flat = flat
+        self._means: dict[float, float] = {}
 
     @cached_property
     def order(self) -> list[list[int]]:
@@ -130,15 +131,17 @@ class Chain:
         Args:
             failure: what it pays; may be infinite.
         """
-        flat = self.flat
-        means = by_law(flat.laws, lambda law: law.mean)
-        constants = [
-            math.fsum(flat.probabilities[branch] * means[branch] for branch in flat.branches(node))
-            for node in range(len(flat))
-        ]
-        values = self._end_values(failure)
-        self._solve(values, flat.probabilities, constants, failure)
-        return values[0]
+        if failure not in self._means:
+            flat = self.flat
+            means = by_law(flat.laws, lambda law: law.mean)
+            constants = [
+                math.fsum(flat.probabilities[branch] * means[branch] for branch in flat.branches(node))
+                for node in range(len(flat))
+            ]
+            values = self._end_values(failure)
+            self._solve(values, flat.probabilities, constants, failure)
+            self._means[failure] = values[0]
+        return self._means[failure]
 
     def exponential_mean(self, slope: float, failure: float) -> float:
         """Return `ln E[e^(slope C)] / slope` of the cost C of a run; infinite where the expectation is.

@@ -1,32 +1,52 @@
-"""The policy of least entropic value at risk, by searches for averse agents.
+"""The policy of least entropic value at risk, by searches for averse agents and lines below all policies.
 
-The entropic value at risk of a cost is the least of `ce_a + c/a` over all `a > 0`, where `ce_a` is the certainty
-equivalent of the averse agent of alpha `a` and `c = ln(1/(1 - level))`. Policies and `a` may change places in the
-minimum, so that it is the least of `V(a) + c/a`, where V(a) is the least certainty equivalent of any policy: a search
-for one agent. V rises with `a`. So between `a1` and `a2` nothing is below `V(a1) + c/a2`, from `a1` on nothing is below
-`V(a1)`, and up to `a2` nothing is below `V(0) + c/a2`, where V(0) is the least expected cost. Intervals are halved,
-that of the least bound first, until the bound has come to the best policy that was found.
+The entropic value at risk of a cost is the least of `f(x) + c x` over all `x > 0`, where `f(x)` is the certainty
+equivalent of the averse agent of alpha `1/x`, and `c = ln(1/(1 - level))`. Policies and x may change places in the
+minimum, so that it is the least of `V(x) + c x`, where V(x) is the least certainty equivalent of any policy: a search
+for one agent.
+
+- A policy that is known has its least value at some x. The best policy for the agent there is no worse; and so on until
+  none is better. That begins with the neutral agent's, so that there is a policy as soon as there can be one.
+- With `m` the least expected cost of any policy, none is better than the best one known, of value `U`, at any x with
+  `m + c x >= U`. So x may be had in the interval from 0, the worst case, to `(U - m)/c`.
+- V falls as x rises: on an interval nothing is below V at its upper end. And what the search has explored there gives a
+  line below the certainty equivalents of all policies on the interval, which touches V where the best policy known has
+  its least value (relax/policies/policy_chord.hpp). Its error is quadratic in the width of the interval.
+- Below an x where no policy is finite none is.
+- An interval whose bound is too low is split; the interval with the lowest bound is the next. The parts keep what was
+  explored for the whole, and search themselves where that proves too little.
 """
 
 from __future__ import annotations
 
 import heapq
 import math
+import time
 from collections.abc import Callable
+from functools import partial
 
+from statehtn.core.policy_chord import ExploredPolicies
 from statehtn.core.policy_outcome import PolicyOutcome
+from statehtn.core.progress import Progress, SearchProgress
 from statehtn.effort import SearchEffort
 from statehtn.errors import StateHtnError
+from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.model.cost.numerics.evar import least_bound
 from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
 from statehtn.policies.chain import Chain
 from statehtn.policies.total_cost import PolicyCost
-from statehtn.risk import Attitude, EntropicValueAtRisk, Exponential, Neutral, Objective
+from statehtn.risk import Attitude, EntropicValueAtRisk, Exponential, Neutral
+from statehtn.sweeps.evar import Interval
+from statehtn.sweeps.minorants import minorant
 
-MOST_RUNS = 2000
-FIRST = 1.0
-"""The first alpha, times the least expected cost."""
-Search = Callable[[Objective], PolicyOutcome]
+MOST_INTERVALS = 2000
+LEAST_TOUCHING = 1 / 64
+"""Of an interval's upper end, where a line touches that had better touch at 0."""
+NEARBY = (1.0, 1.0001, 1.01)
+"""Times an x at which rounding hides whether anything is finite."""
+DOUBLINGS = 60
+Search = Callable[..., PolicyOutcome]
 
 
 class EvarSearch:
@@ -36,81 +56,183 @@ class EvarSearch:
         objective: which.
         failure: what failing costs on top of what was spent; 0 where no run fails.
         precision: how far from the best a policy may be that counts as optimal, as a part of max(1, value).
-        search: finds the best policy by an additive objective.
+        search: finds the best policy by an additive objective, within the limits; takes `progress`.
+        limits: they hold for all searches together.
+        progress: is called while the search goes on.
     """
 
-    def __init__(self, objective: EntropicValueAtRisk, failure: float, precision: float, search: Search) -> None:
+    def __init__(
+        self,
+        objective: EntropicValueAtRisk,
+        failure: float,
+        precision: float,
+        search: Search,
+        limits: Limits,
+        progress: Callable[[SearchProgress], None] | None = None,
+    ) -> None:
         self.level = objective.level
         self.divergence = -math.log1p(-objective.level)
         self.failure = failure
         self.precision = precision
         self._search = search
+        self._limits = limits
+        self._progress = progress
+        self._started = time.monotonic()
         self.effort = SearchEffort()
         self.stopped: Status | None = None
         self.best: PolicyOutcome | None = None
         self.value = math.inf
-        self.runs = 0
+        self.best_x = 0.0
+        self.mean = 0.0
+        self._intervals: list[tuple[Interval, int, ExploredPolicies | None]] = []
+        self._made = 0
 
     def outcome(self) -> PolicyOutcome:
-        """Search, and return the best policy with what is proven of all."""
+        """Search, and return the best policy with what is proven of all.
+
+        Raises:
+            InputError: the cost of every policy has an infinite value.
+        """
         neutral = self._run(Neutral())
         if neutral.graph is None or neutral.lower is None:
             return neutral
-        bound = self._sweep(neutral.lower)
-        assert self.best is not None
-        is_best = self.value - bound <= self.precision * max(1.0, abs(self.value))
-        status = Status.OPTIMAL if is_best else Status.SOLVED
-        best = self.best
-        how = self.best.graph, self.effort, None, None, best.plan_of
-        return PolicyOutcome(status, self.stopped, min(bound, self.value), self.value, *how)
+        self.mean = neutral.lower
+        try:
+            self._begin(neutral)
+            self._go_on()
+        except ENDINGS as ending:
+            self.stopped = status_of(ending)
+        best, bound = self.best or neutral, min(self.bound, self.value)
+        is_best = self._is_proven(bound)
+        upper = self.value if math.isfinite(self.value) else None
+        how = best.graph, self.effort, None, None, best.plan_of
+        stopped = None if is_best else self.stopped
+        return PolicyOutcome(Status.OPTIMAL if is_best else Status.SOLVED, stopped, bound, upper, *how)
 
-    def _sweep(self, neutral: float) -> float:
-        """Halve intervals; return a bound of the value of every policy.
+    @property
+    def bound(self) -> float:
+        """No policy has a lower value."""
+        if self._made == 0:
+            return self.mean
+        return self._intervals[0][0].bound if self._intervals else self.value
 
-        An interval is its bound, its ends, and what is proven of V at the lower end.
+    def _begin(self, neutral: PolicyOutcome) -> None:
+        """Find good policies, and the first interval."""
+        for doubling in range(DOUBLINGS if math.isinf(self.value) else 0):
+            self._run_at(max(self.mean, 1e-9) * 2.0**doubling)
+            if math.isfinite(self.value) or self.stopped is not None:
+                break
+        if math.isinf(self.value):
+            if self.stopped is None:
+                assert neutral.graph is not None
+                least_bound(PolicyCost(Chain(neutral.graph.flat), self.failure), self.level)  # says what is infinite
+            return
+        self._improve()
+        highest = (self.value - self.mean) / self.divergence
+        if highest > 0:
+            self._add(Interval.of(0.0, highest, self.mean, self.mean + self.divergence * highest), None)
+        self._made += 1
+
+    def _improve(self) -> None:
+        """Take the best policy for the agent to whom the best one known comes to its value; and again."""
+        value = math.inf
+        while self.stopped is None and self.best_x > 0 and value - self.value > self.precision / 10 * abs(self.value):
+            value = self.value
+            self._run_at(self.best_x)
+
+    def _go_on(self) -> None:
+        """Bound all policies on the worst interval, until the bound has come to the best policy."""
+        while self._intervals and self._made < MOST_INTERVALS and self.stopped is None:
+            interval, _, explored = self._intervals[0]
+            if self._is_proven(interval.bound):
+                break
+            value = self.value
+            parts = self._refined(interval, explored)
+            if parts == [(interval, explored)]:  # there is nothing between its ends
+                break
+            heapq.heappop(self._intervals)
+            for part in parts:
+                self._add(*part)
+            if self.value < value:
+                self._improve()
+
+    def _add(self, interval: Interval, explored: ExploredPolicies | None) -> None:
+        self._made += 1
+        heapq.heappush(self._intervals, (interval, self._made, explored))
+
+    def _refined(
+        self, interval: Interval, explored: ExploredPolicies | None
+    ) -> list[tuple[Interval, ExploredPolicies | None]]:
+        """Return what an interval becomes, each part with what was explored for its upper end or beyond."""
+        if explored is not None:
+            interval = self._bounded(interval, explored)
+        if not self._is_proven(interval.bound) and (explored is None or explored.x > interval.high):
+            found = self._explored_at(interval.high)
+            if found.status is Status.UNSOLVABLE:
+                return []
+            if found.lower is not None and found.status is not Status.GAVE_UP:
+                interval = interval.raised(*(found.lower + self.divergence * x for x in (interval.low, interval.high)))
+                explored = found.explored or explored
+                if self.stopped is None and found.explored is not None:
+                    interval = self._bounded(interval, found.explored)
+        if self._is_proven(interval.bound) or self.stopped is not None:
+            return [(interval, explored)]
+        point = interval.weak_point(self.value, self._touching(interval))
+        if not interval.low < point < interval.high:
+            return [(interval, explored)]
+        return [(part, explored) for part in interval.split(point)]
+
+    def _touching(self, interval: Interval) -> float:
+        return min(max(self.best_x, interval.low, LEAST_TOUCHING * interval.high), interval.high)
+
+    def _bounded(self, interval: Interval, explored: ExploredPolicies) -> Interval:
+        """Bound all policies on an interval by a chord.
+
+        At the upper end no sum of steps is negative for lines that touch there.
         """
-        intervals = [self._interval(0.0, math.inf, neutral)]
-        while intervals and self.stopped is None and self.runs < MOST_RUNS:
-            bound, low, high, at_low = intervals[0]
-            if self.value - bound <= self.precision * max(1.0, abs(self.value)):
+        low, high = interval.low, interval.high
+        wanted = self.value - self.precision * max(1.0, abs(self.value))
+        enough = wanted - self.divergence * low, wanted - self.divergence * high
+        for touching in (self._touching(interval), high):
+            lines = partial(minorant, low=low, high=high, at=touching)
+            chord = explored.chord(lines, low, high, touching, enough, self._limits)
+            if chord is not None:
+                return interval.raised(chord[0] + self.divergence * low, chord[1] + self.divergence * high)
+        return interval
+
+    def _explored_at(self, x: float) -> PolicyOutcome:
+        """Search for the agent of an x, or of a little more where that is too close to call."""
+        for factor in NEARBY:
+            found = self._run_at(x * factor)
+            if found.status is not Status.GAVE_UP or self.stopped is not None:
                 break
-            heapq.heappop(intervals)
-            middle = self._between(low, high, neutral)
-            if not low < middle < high:
-                return bound
-            found = self._run(Exponential(Attitude.AVERSE, middle))
-            if found.stopped is not None:
-                heapq.heappush(intervals, (bound, low, high, at_low))
-                break
-            heapq.heappush(intervals, self._interval(low, middle, at_low))
-            if found.status is not Status.UNSOLVABLE:  # else every larger alpha has an infinite value, too
-                at_middle = max(at_low, at_low if found.lower is None else found.lower)
-                heapq.heappush(intervals, self._interval(middle, high, at_middle))
-        return min((bound for bound, *_ in intervals), default=self.value)
-
-    def _interval(self, low: float, high: float, at_low: float) -> tuple[float, float, float, float]:
-        return at_low + (self.divergence / high if math.isfinite(high) else 0.0), low, high, at_low
-
-    def _between(self, low: float, high: float, neutral: float) -> float:
-        """Return an alpha in an interval: in the middle of its logarithms where it has ends."""
-        if low == 0:
-            return high / 2 if math.isfinite(high) else FIRST / max(neutral, 1e-9)
-        return low * 2 if math.isinf(high) else math.sqrt(low * high)
-
-    def _run(self, objective: Objective) -> PolicyOutcome:
-        """Search for one agent; its policy is valued by this objective."""
-        found = self._search(objective)
-        self.runs += 1
-        self.effort += found.effort
-        self.stopped = self.stopped or found.stopped
-        if found.graph is not None:
-            value = self._value(found.graph.flat)
-            if value < self.value:
-                self.value, self.best = value, found
         return found
 
-    def _value(self, flat: FlatPolicy) -> float:
-        try:
-            return PolicyCost(Chain(flat), self.failure).evar(self.level)
-        except StateHtnError:  # it is infinite, or cannot be computed
-            return math.inf
+    def _is_proven(self, bound: float) -> bool:
+        return self.value - bound <= self.precision * max(1.0, abs(self.value))
+
+    def _run_at(self, x: float) -> PolicyOutcome:
+        return self._run(Exponential(Attitude.AVERSE, math.nextafter(1 / x, 0)))  # whose inverse is not below x
+
+    def _run(self, objective: Neutral | Exponential) -> PolicyOutcome:
+        """Search for one agent; its policy is valued by this objective."""
+        found = self._search(objective, progress=None if self._progress is None else self._report)
+        self.effort += found.effort
+        self.stopped = self.stopped or found.stopped
+        if found.graph is not None and not self._is_known(found.graph.flat):
+            cost = PolicyCost(Chain(found.graph.flat), self.failure)
+            try:
+                value, x = least_bound(cost, self.level) if math.isfinite(cost.mean) else (math.inf, 0.0)
+            except StateHtnError:  # it is infinite, or cannot be computed
+                value, x = math.inf, 0.0
+            if value < self.value:
+                self.value, self.best_x, self.best = value, x, found
+        return found
+
+    def _is_known(self, flat: FlatPolicy) -> bool:
+        return self.best is not None and self.best.graph is not None and self.best.graph.flat == flat
+
+    def _report(self, progress: SearchProgress) -> None:
+        assert self._progress is not None
+        effort, best = self.effort + progress.effort, self.value if math.isfinite(self.value) else None
+        self._progress(Progress(time.monotonic() - self._started, effort, self.bound, best))

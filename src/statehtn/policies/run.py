@@ -114,14 +114,14 @@ class PolicyPipeline:
             adaptive=True,
             precision=settings.precision,
             limits=self.limits,
-            progress=self.progress,
             value_of=self._value_of,
         )
         if isinstance(settings.objective, EntropicValueAtRisk):
             from statehtn.policies.evar import EvarSearch  # few runs need it
 
-            return EvarSearch(settings.objective, settings.failure_cost or 0.0, settings.precision, search).outcome()
-        return search(settings.objective)
+            how = settings.failure_cost or 0.0, settings.precision, search, self.limits, self.progress
+            return EvarSearch(settings.objective, *how).outcome()
+        return search(settings.objective, progress=self.progress)
 
     def _value_of(self, flat: FlatPolicy) -> float:
         """Return what a policy is worth by the objective, from its runs alone; infinite where that is not finite."""

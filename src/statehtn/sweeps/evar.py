@@ -63,6 +63,13 @@ class Interval:
         """Return an interval with a line."""
         return Interval(min(at_low, at_high), low, high, at_low, at_high)
 
+    def raised(self, at_low: float, at_high: float) -> Interval:
+        """Return it with the better one of two lines: its own, and one with these values at its ends.
+
+        The larger values of both would make no line below: it would be above both where they cross.
+        """
+        return max(self, Interval.of(self.low, self.high, at_low, at_high))
+
     def split(self, at: float) -> list[Interval]:
         """Return the parts below and above a point inside."""
         share = (at - self.low) / (self.high - self.low)
@@ -172,14 +179,14 @@ class EvarSweep:
         interval = heapq.heappop(todo)
         low, high = interval.low, interval.high
         at = min(max(self.best_x, low), high)
-        ends = [interval.at_low, interval.at_high]
+        ends = []
         for upper in (False, True):
             if self.runs.stopped is None:
                 result = self.runs.run(Minorant(low, high, at, upper))
                 if result.lower_bound is not None:
-                    ends[upper] = max(ends[upper], result.lower_bound + self.radius * (high if upper else low))
+                    ends.append(result.lower_bound + self.radius * (high if upper else low))
                 yield result
-        known = Interval.of(low, high, *ends)
+        known = interval.raised(*ends) if len(ends) == 2 else interval
         parts = [known]
         if not self.is_proven(known.bound) and self.runs.stopped is None:
             parts = known.split(known.weak_point(self.value, at))

@@ -57,6 +57,17 @@ public:
         std::span<const TracedBranch> branches;
     };
     Traced trace(PolicyNodeId node, std::uint32_t decision);
+    // Call `put(branches)` with what may come of each decision of an expanded node, in the order of the graph.
+    template <typename Put>
+    void trace_all(PolicyNodeId node, Put put) {
+        find_decisions(node);
+        for (PolicyDecision& decision : decisions_) {
+            follow(decision, nullptr);
+            branches_.clear();
+            list_branches(nodes_[node].left, decision, branches_);
+            put(std::span<const TracedBranch>(branches_));
+        }
+    }
 
     void decide(DecisionGraph& graph, PolicyNodeId node, std::vector<DraftDecision>& drafts) final;
 

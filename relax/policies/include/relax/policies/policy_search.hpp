@@ -84,6 +84,11 @@ public:
     void set_precision(double precision) { options_.precision = precision; }
 
     const DecisionGraph& graph() const { return graph_; }
+    // Of the last run, which was not ended before it had one.
+    PolicyNodeId root() const { return root_; }
+    // Explore more: the best policies by the lower worths from some nodes on, until these meet no open node, or for
+    // some rounds. Throws Stopped.
+    void explore_from(std::span<const PolicyNodeId> nodes);
 
 private:
     static constexpr std::uint64_t kWalkedPerNode = 16;
