@@ -11,8 +11,11 @@ import pytest
 import statehtn
 from statehtn.cli.program import main
 from statehtn.errors import UnsupportedError, UsageError
+from statehtn.explanation.explanation import why_no_plan
+from statehtn.limits import Limits
 from statehtn.model import Problem
 from statehtn.model.status import Status
+from statehtn.policies.settings import PolicySettings
 from tests.pages import ROOT, blocks
 
 PAGE = {block.title: block.text for block in blocks((ROOT / "docs" / "why.md").read_text(encoding="utf-8"))}
@@ -84,6 +87,94 @@ def test_outcomes_after_which_nothing_is_left() -> None:
     assert "(walk a b) if it does not come to (at b), 0.1; runs of that policy come to it with" in str(answer)
     assert "--failure-cost" in str(answer)
     assert answer.to_dict()["chance"]["dead_ends"][0]["deleted"] == ["(at a)"]
+
+
+DEAD_ENDS = SLIPPERY.replace("0.5 ()", "0.1 (not (at ?a)) 0.4 ()")
+
+
+def test_by_success_there_is_a_policy() -> None:
+    answer = statehtn.why(read(SLIPPERY_ROADS, DEAD_ENDS), objective="success")
+    assert isinstance(answer, statehtn.NoPlan)
+    assert answer.status is Status.SOLVED
+    assert answer.policy is not None
+    assert answer.policy.success_probability == pytest.approx(0.81)
+    assert [round(bad.reached, 9) for bad in answer.chance.dead_ends] == [0.1, 0.09]  # type: ignore[union-attr]
+    text = str(answer)
+    assert text.startswith("There is a policy that is done with probability 0.81, of ")
+    assert "By 'success' no policy is better" in text
+    assert "(walk b c) if it does not come to (at c), 0.1; runs of that policy come to it with probability 0.09" in text
+    assert "--objective success" not in text
+    found = answer.to_dict()["policy"]
+    assert found["success_probability"] == found["value"] == pytest.approx(0.81)
+    sure = statehtn.why(read(SLIPPERY_ROADS, SLIPPERY), objective="success")
+    assert isinstance(sure, statehtn.NoPlan)
+    assert (sure.chance, str(sure).splitlines()[0]) == (
+        None,
+        "There is a policy that is done with probability 1, of 10 nodes.",
+    )
+
+
+@pytest.mark.parametrize(
+    ("level", "failure_cost", "words"),
+    [
+        (
+            0.9,
+            None,
+            "policies count that are done with probability 0.9 at least, and there is none. --objective success",
+        ),
+        (
+            0.8,
+            None,
+            "policies count that are done with probability 0.8 at least, and there is one. --objective success",
+        ),
+        (0.9, math.inf, "No policy is done with probability 0.9, whatever it spends: the most likely one is done with"),
+        (0.8, math.inf, "There is a policy that is done with probability 0.81"),
+        (0.8, math.inf, "Its value by 'quantile 0.8' is finite: 4, where failed is late."),
+        (0.9, 50, "Its value by 'quantile 0.9' is finite: "),
+    ],
+)
+def test_a_level_is_a_probability_that_is_to_be_reached(level: float, failure_cost: float | None, words: str) -> None:
+    problem = read(SLIPPERY_ROADS, DEAD_ENDS)
+    answer = statehtn.why(problem, objective=f"quantile {level}", failure_cost=failure_cost)
+    assert words in str(answer)
+
+
+def test_whether_a_value_is_finite_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    gripper = [str(ROOT / f"domains/gripper-robot/{name}.hddl") for name in ("domain", "p1")]
+    assert main(["why", *gripper]) == 0
+    assert "Its expected cost is 5.\n" in capsys.readouterr().out
+    assert main(["why", *gripper, "--objective", "averse 0.3"]) == 0
+    assert "Its value by 'averse 0.3' is finite: 5.435219069.\n" in capsys.readouterr().out
+    assert main(["why", *gripper, "--objective", "averse 0.7", "--failure-cost", "20"]) == 0
+    assert "where failing costs 20 on top of what was spent.\n" in capsys.readouterr().out
+    assert main(["why", *gripper, "--failure-cost", "20", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["policy"] == {
+        "objective": "neutral",
+        "failure_cost": 20,
+        "value": pytest.approx(5),
+        "value_unit": "cost",
+        "success_probability": 1,
+        "expected_cost": pytest.approx(5),
+        "nodes": 9,
+    }
+
+
+def test_a_failure_cost_is_of_policies_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["why", *AV, "--failure-cost", "3"]) == 2
+    assert "a failure cost to policies" in capsys.readouterr().err
+    plan = tmp_path / "plan.txt"
+    plan.write_text("", encoding="utf-8")
+    assert main(["why", *AV, "--plan", str(plan), "--failure-cost", "3"]) == 2
+    with pytest.raises(UsageError, match="a given plan is none"):
+        statehtn.why(statehtn.read_hddl(*AV), ["(stop)"], failure_cost=3)
+
+
+@pytest.mark.parametrize(("steps", "what"), [(500, "plan"), (8000, "policy")])
+def test_what_is_not_known_is_not_said(steps: int, what: str) -> None:
+    gripper = statehtn.read_hddl(*(str(ROOT / f"domains/gripper-robot/{name}.hddl") for name in ("domain", "p4")))
+    answer = why_no_plan(gripper, Limits(steps=steps), PolicySettings.of("deadline 30"))
+    assert (answer.status, answer.policy, answer.to_dict()["policy"]) == (Status.TIME_LIMIT, None, None)
+    assert str(answer) == f"It is not known whether there is a {what}: time limit reached before a {what} was found"
 
 
 def test_policies_that_an_averse_agent_loathes() -> None:

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from statehtn.cli.parser import Parser
-from statehtn.cli.shared_options import add_inputs, add_limits, add_objective
+from statehtn.cli.shared_options import add_failure_cost, add_inputs, add_limits, add_objective
 
 if TYPE_CHECKING:
     Commands = argparse._SubParsersAction[Parser]
@@ -69,6 +69,7 @@ def add_why(commands: Commands) -> None:
     )
     add_inputs(parser)
     parser.add_argument("--plan", metavar="FILE", help="ask about this plan; - for standard input")
-    add_objective(parser, "the agent, with --plan or where actions have several outcomes", has_budgets=False)
+    agent = add_objective(parser, "the agent, with --plan or where actions have several outcomes", has_budgets=False)
+    add_failure_cost(agent)
     add_limits(parser)
     parser.add_argument("--json", action="store_true", help="print the answer as one JSON object")

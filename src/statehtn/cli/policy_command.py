@@ -52,7 +52,7 @@ def run_policy(options: argparse.Namespace, session: Session | None = None, limi
     _print(result, options, beside)
     is_told = options.json or options.quiet or beside
     if result.status is Status.UNSOLVABLE and session.problem is not None and not is_told:
-        say_why(session.problem, limits, settings.objective)
+        say_why(session.problem, limits, settings)
     _draw(result, pictures)
     return EXIT_CODES[result.status]
 

@@ -11,7 +11,6 @@ from statehtn.settings import DEFAULT_PRECISION, PRECISION_OF_SUMS, objective_of
 
 if TYPE_CHECKING:
     from statehtn.policies.settings import PolicySettings
-    from statehtn.risk.policy_objectives import PolicyObjective
 
 
 def add_inputs(parser: argparse.ArgumentParser) -> None:
@@ -28,8 +27,13 @@ def add_agent(parser: argparse.ArgumentParser) -> None:
     _add_attitude(agent)
 
 
-def add_objective(parser: argparse.ArgumentParser, title: str = "the agent", has_budgets: bool = True) -> None:
-    """Add what plans are compared by, and what they have to keep; `objective_in` reads the former back."""
+def add_objective(
+    parser: argparse.ArgumentParser, title: str = "the agent", has_budgets: bool = True
+) -> argparse._ActionsContainer:
+    """Add what plans are compared by, and what they have to keep; `objective_in` reads the former back.
+
+    Returns the group of these options.
+    """
     agent = parser.add_argument_group(title)
     agent.add_argument(
         "--objective",
@@ -40,6 +44,7 @@ def add_objective(parser: argparse.ArgumentParser, title: str = "the agent", has
     _add_attitude(agent)
     if has_budgets:
         add_keep(agent)
+    return agent
 
 
 def _add_attitude(agent: argparse._ActionsContainer) -> None:
@@ -86,17 +91,22 @@ def add_policy_agent(parser: argparse.ArgumentParser) -> None:
 
 def add_failing(agent: argparse._ActionsContainer) -> None:
     """Add what failing costs a policy, and whether it is compared with a plan."""
+    add_failure_cost(agent)
+    agent.add_argument(
+        "--adaptive",
+        action="store_true",
+        help="find a policy that looks at what was spent, and say what looking is worth, beside the best plan",
+    )
+
+
+def add_failure_cost(agent: argparse._ActionsContainer) -> None:
+    """Add what failing costs a policy."""
     agent.add_argument(
         "--failure-cost",
         type=float,
         metavar="F",
         help="what failing costs a policy on top of what was spent; the agent may give up anywhere. 'inf' is allowed "
         "for deadline and quantile. Without it only policies count that are done with probability 1",
-    )
-    agent.add_argument(
-        "--adaptive",
-        action="store_true",
-        help="find a policy that looks at what was spent, and say what looking is worth, beside the best plan",
     )
 
 
@@ -110,21 +120,8 @@ def policy_settings_in(options: argparse.Namespace) -> PolicySettings:
     from statehtn.policies.settings import PolicySettings
 
     _check_said_once(options)
-    how = options.failure_cost, options.adaptive, options.precision
+    how = options.failure_cost, getattr(options, "adaptive", False), getattr(options, "precision", None)
     return PolicySettings.of(options.objective, options.attitude, options.alpha, *how)
-
-
-def policy_objective_in(options: argparse.Namespace) -> PolicyObjective:
-    """Return the objective that the options name, `success` included.
-
-    Raises:
-        UsageError: there is none like that, or it is named in both ways.
-        UnsupportedError: there are no policies by it.
-    """
-    from statehtn.policies.settings import policy_objective
-
-    _check_said_once(options)
-    return policy_objective(options.objective, options.attitude, options.alpha)
 
 
 def _check_said_once(options: argparse.Namespace) -> None:

@@ -8,8 +8,10 @@ import json
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.plan_files import read_plan_file
-from statehtn.cli.shared_options import objective_in, policy_objective_in
+from statehtn.cli.shared_options import objective_in, policy_settings_in
 from statehtn.cli.streams import emit
+from statehtn.errors import UsageError
+from statehtn.explanation.ask import NO_FAILURE_COST
 from statehtn.explanation.explanation import NoPlan, why_no_plan
 from statehtn.explanation.given_plan import WhyNot, why_not
 from statehtn.limits import LimitReached, Limits
@@ -28,9 +30,12 @@ def run_why(options: argparse.Namespace) -> ExitCode:
     try:
         problem = read_problem(options, limits)
         if options.plan is None:
-            is_given = any((options.objective, options.attitude, options.alpha is not None))
-            answer = why_no_plan(problem, limits, policy_objective_in(options) if is_given else None)
+            given = options.objective, options.attitude, options.alpha, options.failure_cost
+            is_given = any(each is not None for each in given)
+            answer = why_no_plan(problem, limits, policy_settings_in(options) if is_given else None)
         else:
+            if options.failure_cost is not None:
+                raise UsageError(NO_FAILURE_COST)
             settings = Settings.of(objective_in(options))
             answer = why_not(problem, read_plan_file(options.plan, problem, limits), settings, limits)
     except LimitReached as ending:

@@ -144,12 +144,13 @@ def _with_reason(
     exponential = Exponential | OneSwitch | Exponentials
     if success is not None and success > 1 - 1e-9 and isinstance(objective, exponential):
         reason = (
-            f"what a policy that is done for certain costs has no finite certainty equivalent for '{objective}': loops"
-            " are long with a probability that falls too slowly. A smaller alpha, or a failure cost, has a policy"
+            f"policies are done with probability 1, but none has a finite value by '{objective}', since long loops are"
+            " not unlikely enough for this agent; with a smaller alpha there is one, and with a failure cost"
+            " ('statehtn policy --failure-cost F')"
         )
     else:
         reason = (
-            "no policy is done with probability 1. With a failure cost the agent may give up; the objective 'success'"
-            " asks for the policy that is done most probably"
+            "no policy is done with probability 1; with a failure cost ('statehtn policy --failure-cost F') the agent"
+            " may give up, and by the objective 'success' the policy is found that is most likely done"
         )
     return replace(outcome, reason=reason, most_success=success)

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from statehtn.counted import counted, likely
+from statehtn.counted import counted
 from statehtn.display.comparison import LEAST, TIE, actions_text
-from statehtn.display.policy_words import OTHERWISE, conditions
+from statehtn.display.no_policy import no_policy_lines, policy_lines
 from statehtn.display.table import on_the_point
 from statehtn.display.tree import tree_text
 from statehtn.display.words import ENDINGS, number, value_text, with_unit
-from statehtn.explanation.chance import BadOutcome, NoPolicy
 from statehtn.explanation.deepest import Deadlock, Exploration, Lack
 from statehtn.explanation.explanation import NoPlan
 from statehtn.explanation.given_plan import WhyNot
@@ -32,56 +31,14 @@ def no_plan_text(answer: NoPlan) -> str:
         return "\n".join(_unreachable(answer.reason, answer.additions))
     if answer.exploration is not None:
         return "\n".join(_stuck(answer.exploration))
+    if answer.policies is not None:
+        return "\n".join(policy_lines(answer.policies, answer.chance))
     if answer.chance is not None:
         return "\n".join(no_policy_lines(answer.chance))
-    if answer.policy is not None:
-        return (
-            f"There is a policy that is done with probability 1, of {counted(len(answer.policy), 'node')}.\n"
-            f"'statehtn policy' finds the best one."
-        )
     if answer.plan is not None:
         steps = counted(len(answer.plan.steps), "action")
         return f"There is a plan, of {steps}: {actions_text(answer.plan.steps)}\n'statehtn plan' finds the best one."
     return f"It is not known whether there is a plan: {ENDINGS[answer.status]}"
-
-
-def no_policy_lines(answer: NoPolicy) -> Iterator[str]:
-    """Yield why there is no policy by an objective."""
-    if answer.loops or answer.most_success == 1:
-        yield f"Policies are done with probability 1, but none has a finite value by '{answer.objective}':"
-        yield "loops are long with a probability that falls too slowly for this agent."
-        if answer.loops:
-            yield "In the policy of least expected cost these outcomes lead back to where it was:"
-            yield from (f"  {_bad_outcome(bad)}" for bad in answer.loops)
-        if answer.finite_below is not None:
-            yield f"That policy has a finite value for an alpha below {answer.finite_below:.6g}."
-        yield "With --failure-cost the agent may give up."
-        return
-    known = "the most likely one" if answer.is_proven else "the most likely one that was found"
-    yield f"No policy is done with probability 1: {known} is done with probability {likely(answer.most_success)}."
-    if answer.dead_ends:
-        yield "After these outcomes nothing is left that could be done:"
-        for bad in answer.dead_ends:
-            yield f"  {_bad_outcome(bad)}; runs of that policy come to it with probability {likely(bad.reached)}"
-    yield "With --failure-cost the agent may give up; --objective success asks for the policy that is most likely done."
-
-
-def no_policy_line(answer: NoPolicy) -> str:
-    """Return in one line why there is no policy: the outcome that stands in the way most."""
-    if answer.loops:
-        return f"why: again and again it may come to {_bad_outcome(answer.loops[0])}"
-    if answer.dead_ends:
-        return f"why: nothing is left that could be done after {_bad_outcome(answer.dead_ends[0])}"
-    return "why: runs may go on for ever"
-
-
-def _bad_outcome(bad: BadOutcome) -> str:
-    texts = conditions(bad.others)
-    condition = texts[bad.changes]
-    if condition == OTHERWISE:
-        others = " or ".join(text for changes, text in texts.items() if changes != bad.changes)
-        condition = f"it does not come to {others}"
-    return f"{bad.action} if {condition}, {likely(bad.probability)}"
 
 
 def reason_lines(reason: Reason | None) -> list[str]:

@@ -56,8 +56,9 @@ def _rows(result: PolicyResult) -> Labelled:
     why = f" ({STOPS[result.stopped]})" if result.policy is not None and result.stopped is not None else ""
     rows = [("status", _ending(result) + why)]
     if result.policy is None:
-        if result.most_success is not None:
-            rows.append(("done at most", f"with probability {likely(result.most_success)}, as far as is known"))
+        if result.most_success is not None and result.most_success < 1 - ROUNDING:
+            most = f"done with probability {likely(result.most_success)}, as far as is known"
+            rows.append(("best chance", most))
         return rows
     done = likely(result.policy.success_probability, result.policy.failure_probability)
     if isinstance(result.objective, Success):

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from statehtn.errors import UsageError
 from statehtn.expected import items
 from statehtn.explanation.explanation import NoPlan, why_no_plan
 from statehtn.explanation.given_plan import WhyNot, why_not
 from statehtn.limits import Limits
 from statehtn.model import Plan, Problem, Step
 from statehtn.model.expect import expect_problem
-from statehtn.policies.settings import policy_objective
+from statehtn.policies.settings import PolicySettings
 from statehtn.risk import AttitudeName, ObjectiveLike, Success
 from statehtn.settings import Settings, objective_of
+
+NO_FAILURE_COST = "a failure cost is what a policy pays that fails, and a given plan is none; leave it out"
 
 
 def why(
@@ -22,6 +25,7 @@ def why(
     objective: ObjectiveLike | Success | None = None,
     attitude: AttitudeName | None = None,
     alpha: float | None = None,
+    failure_cost: float | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
 ) -> NoPlan | WhyNot:
@@ -34,6 +38,7 @@ def why(
             what policies are compared by; the expected cost if none is given.
         attitude: averse, neutral or seeking, instead of an objective.
         alpha: how much such an agent cares, per unit of cost.
+        failure_cost: what failing costs a policy, as for `policy`; where actions have several outcomes.
         time_limit: seconds.
         memory_limit: resident memory of the whole process in MB (10^6 bytes).
 
@@ -48,7 +53,10 @@ def why(
     expect_problem(problem)
     limits = Limits.starting_now(time_limit, memory_limit)
     if plan is None:
-        is_given = objective is not None or attitude is not None or alpha is not None
-        return why_no_plan(problem, limits, policy_objective(objective, attitude, alpha) if is_given else None)
+        given = objective, attitude, alpha, failure_cost
+        is_given = any(each is not None for each in given)
+        return why_no_plan(problem, limits, PolicySettings.of(*given) if is_given else None)
+    if failure_cost is not None:
+        raise UsageError(NO_FAILURE_COST)
     settings = Settings.of(objective_of(objective, attitude, alpha))
     return why_not(problem, plan if isinstance(plan, Plan) else items(plan, "the actions"), settings, limits)

@@ -13,10 +13,10 @@ from statehtn.model.policy_graph import Branch, End, PolicyGraph
 from statehtn.model.problem import Fact
 from statehtn.model.status import Status
 from statehtn.policies.chain import Chain
-from statehtn.policies.policy import Policy
+from statehtn.policies.result import PolicyResult
 from statehtn.policies.run import find_policy
 from statehtn.policies.settings import PolicySettings
-from statehtn.risk import Attitude, Exponential, Exponentials, Neutral, OneSwitch, Success
+from statehtn.risk import Attitude, Exponential, Exponentials, Neutral, OneSwitch, Quantile, Success
 from statehtn.risk.policy_objectives import PolicyObjective
 from statehtn.session import Session
 
@@ -24,6 +24,8 @@ Changes = tuple[frozenset[Fact], frozenset[Fact]]
 MOST_OUTCOMES = 20
 """Outcomes for which is worked out how likely they come."""
 HALVINGS = 60
+NEARLY_SURE = 1 - 1e-5
+"""By the precision of the search, a policy may be done for certain above that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +63,7 @@ class NoPolicy:
     """Why a problem whose actions have several outcomes has no policy by an objective.
 
     Args:
-        objective: what policies are compared by.
+        settings: what policies are compared by, and what failing costs.
         most_success: the largest probability of being done that was found; 1 where policies are done for certain.
         is_proven: whether no policy is done with a higher one.
         dead_ends: outcomes in the policy with that probability after which being done is impossible, the likeliest
@@ -71,17 +73,31 @@ class NoPolicy:
         finite_below: the alpha below which that policy has a finite value for averse agents; None of other agents.
     """
 
-    objective: PolicyObjective
+    settings: PolicySettings
     most_success: float
     is_proven: bool
     dead_ends: tuple[BadOutcome, ...] = ()
     loops: tuple[BadOutcome, ...] = ()
     finite_below: float | None = None
 
+    @property
+    def objective(self) -> PolicyObjective:
+        """What policies are compared by."""
+        return self.settings.objective
+
+    @property
+    def wanted_success(self) -> float:
+        """The least probability of being done with which a policy would count."""
+        if self.settings.failure_cost is not None and isinstance(self.objective, Quantile):
+            return self.objective.level
+        return 1.0
+
     def to_dict(self) -> dict[str, Any]:
         """Return the entry `chance` of the JSON object."""
         return {
             "objective": str(self.objective),
+            "failure_cost": self.settings.shown_failure_cost,
+            "wanted_success": self.wanted_success,
             "most_success": self.most_success,
             "proven": self.is_proven,
             "dead_ends": [each.to_dict() for each in self.dead_ends],
@@ -90,32 +106,51 @@ class NoPolicy:
         }
 
 
-def why_no_policy(session: Session, objective: PolicyObjective, limits: Limits) -> NoPolicy | Policy | Status:
-    """Return why there is no policy; a policy where there is one; or what ended the search for that.
+def why_no_policy(session: Session, settings: PolicySettings, limits: Limits) -> NoPolicy | PolicyResult:
+    """Return why there is no policy; the result of the search for one where there is, or where that is not known.
 
-    `UNSOLVABLE` where no policy is ever done.
+    Where nothing is ever done, the probability of being done is 0: that is not a matter of chance.
 
     Raises:
         UnsupportedError: there are no policies by this objective, or of this problem.
         InputError: a probability is none.
     """
+    wanted = find_policy(session, settings, limits)
+    if isinstance(settings.objective, Success) and wanted.value == 0:
+        return NoPolicy(settings, 0.0, wanted.status is Status.OPTIMAL)
+    if wanted.policy is not None or wanted.status is not Status.UNSOLVABLE:
+        return wanted
+    return reasons_of_chance(session, settings, limits)
+
+
+def what_is_lost(found: PolicyResult) -> NoPolicy | None:
+    """Return what keeps the policy that is most likely done from being done for certain; None of other policies."""
+    if found.policy is None or not isinstance(found.objective, Success) or not found.policy.failure_probability:
+        return None
+    ends = tuple(_dead_ends(found.policy.graph, Chain(found.policy.graph.flat)))
+    return NoPolicy(found.settings, found.policy.success_probability, found.status is Status.OPTIMAL, ends)
+
+
+def reasons_of_chance(session: Session, settings: PolicySettings, limits: Limits) -> NoPolicy | PolicyResult:
+    """Return why there is no policy, where that is known; the result of the search for the likeliest if it has none.
+
+    Raises:
+        InputError: a probability is none.
+    """
     likely = find_policy(session, PolicySettings.of(Success()), limits)
     policy = likely.policy
     if policy is None:
-        return likely.status
+        return likely
     chain = Chain(policy.graph.flat)
-    if not chain.sure[0]:
-        is_proven = likely.status is Status.OPTIMAL
-        if not likely.value:
-            return Status.UNSOLVABLE if is_proven else likely.stopped or likely.status
-        return NoPolicy(objective, likely.value, is_proven, tuple(_dead_ends(policy.graph, chain)))
-    if isinstance(objective, Neutral | Success):
-        return policy
-    wanted = find_policy(session, PolicySettings.of(objective), limits)
-    if wanted.policy is not None or wanted.status is not Status.UNSOLVABLE:
-        return wanted.policy or wanted.status
-    below = _finite_below(chain, objective)
-    return NoPolicy(objective, 1.0, True, (), tuple(_loops(policy.graph, chain)), below)
+    is_proven = likely.status is Status.OPTIMAL
+    if not chain.sure[0] and not isinstance(settings.objective, Neutral) and (likely.bound or 0.0) > NEARLY_SURE:
+        calm = find_policy(session, PolicySettings.of(Neutral()), limits).policy  # has all that are done for certain
+        if calm is not None:
+            policy, chain = calm, Chain(calm.graph.flat)
+    if chain.sure[0]:
+        below = _finite_below(chain, settings.objective)
+        return NoPolicy(settings, 1.0, True, (), tuple(_loops(policy.graph, chain)), below)
+    return NoPolicy(settings, likely.value or 0.0, is_proven, tuple(_dead_ends(policy.graph, chain)))
 
 
 def _dead_ends(graph: PolicyGraph, chain: Chain) -> list[BadOutcome]:

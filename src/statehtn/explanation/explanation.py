@@ -8,7 +8,7 @@ from typing import Any
 
 from statehtn.errors import UsageError
 from statehtn.explanation.additions import smallest_additions
-from statehtn.explanation.chance import NoPolicy, why_no_policy
+from statehtn.explanation.chance import NoPolicy, reasons_of_chance, what_is_lost, why_no_policy
 from statehtn.explanation.deepest import Exploration, explore
 from statehtn.explanation.reason import Addition, Reason
 from statehtn.explanation.reasons import Reasoner
@@ -19,8 +19,8 @@ from statehtn.model.plan import Plan
 from statehtn.model.status import Status
 from statehtn.pipeline import any_plan
 from statehtn.policies.policy import Policy
-from statehtn.risk import Neutral
-from statehtn.risk.policy_objectives import PolicyObjective
+from statehtn.policies.result import PolicyResult
+from statehtn.policies.settings import PolicySettings
 from statehtn.session import Session
 
 SECONDS_TO_TRY = 10.0
@@ -41,8 +41,10 @@ class NoPlan:
             left out.
         exploration: where the search gets stuck, where only the order or what is deleted stands in the way.
         plan: a plan, where there is one.
-        chance: why there is no policy, where actions have several outcomes.
-        policy: a policy that is done with probability 1, and has a finite value, where there is one.
+        chance: why there is no policy, where actions have several outcomes; by `success`, where there always is one,
+            why it is not done for certain.
+        policies: what the search for a policy has found, where actions have several outcomes and there is one, or
+            where it is not known whether there is.
     """
 
     status: Status
@@ -51,7 +53,12 @@ class NoPlan:
     exploration: Exploration | None = None
     plan: Plan | None = None
     chance: NoPolicy | None = None
-    policy: Policy | None = None
+    policies: PolicyResult | None = None
+
+    @property
+    def policy(self) -> Policy | None:
+        """A policy by the objective, where there is one."""
+        return None if self.policies is None else self.policies.policy
 
     def to_dict(self) -> dict[str, Any]:
         """Return the object that `statehtn why --json` prints."""
@@ -64,7 +71,7 @@ class NoPlan:
             "nodes": None if explored is None else explored.nodes,
             "plan": None if self.plan is None else [str(step) for step in self.plan.steps],
             "chance": None if self.chance is None else self.chance.to_dict(),
-            "policy": self.policy is not None,
+            "policy": None if self.policies is None else _policy_entry(self.policies),
         }
 
     def __str__(self) -> str:
@@ -73,28 +80,40 @@ class NoPlan:
         return no_plan_text(self)
 
 
-def why_no_plan(problem: Problem, limits: Limits, objective: PolicyObjective | None = None) -> NoPlan:
+def _policy_entry(found: PolicyResult) -> dict[str, Any] | None:
+    """Return the entry `policy` of the JSON object; None where there is no policy."""
+    keys = ("objective", "failure_cost", "value", "value_unit", "success_probability", "expected_cost")
+    if found.policy is None:
+        return None
+    whole = found.to_dict()
+    return {key: whole[key] for key in keys} | {"nodes": len(found.policy)}
+
+
+def why_no_plan(problem: Problem, limits: Limits, settings: PolicySettings | None = None) -> NoPlan:
     """Return why a problem has no plan; or no policy, where actions have several outcomes.
 
     Args:
         problem: the problem.
         limits: of all that.
-        objective: what policies are compared by; None for the expected cost.
+        settings: what policies are compared by, and what failing costs; None for the expected cost.
 
     Raises:
-        UsageError: an objective is given, and actions have one outcome each: whether there is a plan does not depend on
-            it.
+        UsageError: settings are given, and actions have one outcome each: whether there is a plan does not depend on
+            them.
         UnsupportedError: a precondition falls into too many cases, or there are no policies by the objective.
         InputError: the cost of a reachable action is no distribution.
     """
-    if objective is not None and not problem.domain.has_outcomes:
-        raise UsageError("an objective matters to a given plan alone; whether there is a plan does not depend on it")
+    if settings is not None and not problem.domain.has_outcomes:
+        raise UsageError(
+            "an objective matters to a given plan alone, and a failure cost to policies; whether there is a plan does "
+            "not depend on them"
+        )
     try:
         reason = relaxed_reason(problem, limits)
         if reason is not None:
             return _with_additions(problem, reason, limits)
         if problem.domain.has_outcomes:
-            found_out = _by_chance(problem, objective or Neutral(), limits)
+            found_out = _by_chance(problem, settings or PolicySettings.of(), limits)
             if found_out is not None:
                 return found_out
         else:
@@ -116,24 +135,27 @@ def _with_additions(problem: Problem, reason: Reason, limits: Limits) -> NoPlan:
     return NoPlan(Status.UNSOLVABLE, reason, tuple(found))
 
 
-def _by_chance(problem: Problem, objective: PolicyObjective, limits: Limits) -> NoPlan | None:
+def _by_chance(problem: Problem, settings: PolicySettings, limits: Limits) -> NoPlan | None:
     """Return why there is no policy, or that there is one; None where not even the best outcomes would help."""
-    answer = why_no_policy(Session(problem), objective, limits)
+    answer = why_no_policy(Session(problem), settings, limits)
     if isinstance(answer, NoPolicy):
-        return NoPlan(Status.UNSOLVABLE, chance=answer)
-    if isinstance(answer, Policy):
-        return NoPlan(Status.SOLVED, policy=answer)
-    return None if answer is Status.UNSOLVABLE else NoPlan(answer)
+        return None if answer.is_proven and not answer.most_success else NoPlan(Status.UNSOLVABLE, chance=answer)
+    return NoPlan(Status.SOLVED if answer else answer.status, policies=answer, chance=what_is_lost(answer))
 
 
-def chance_soon(problem: Problem, objective: PolicyObjective, limits: Limits) -> NoPolicy | None:
+def chance_soon(session: Session, settings: PolicySettings, limits: Limits) -> NoPolicy | None:
     """Return why there is no policy, as far as that is found within a few seconds; None where it is not.
+
+    Args:
+        session: a problem that has no policy.
+        settings: what there is none by.
+        limits: they hold.
 
     Raises:
         LimitReached: a limit was reached.
     """
-    answer = why_no_policy(Session(problem), objective, _at_most(limits, SECONDS_FOR_A_LINE))
-    return answer if isinstance(answer, NoPolicy) else None
+    answer = reasons_of_chance(session, settings, _at_most(limits, SECONDS_FOR_A_LINE))
+    return answer if isinstance(answer, NoPolicy) and answer.most_success else None
 
 
 def relaxed_reason(problem: Problem, limits: Limits) -> Reason | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -155,14 +154,13 @@ class PolicyResult:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the object that `statehtn policy --json` prints; what is infinite is null."""
-        failure = self.settings.failure_cost
         return {
             "status": self.status.value,
             "problem_class": self.problem_class,
             "objective": str(self.objective),
             "attitude": self.settings.attitude,
             "alpha": self.settings.alpha,
-            "failure_cost": "inf" if failure is not None and math.isinf(failure) else failure,
+            "failure_cost": self.settings.shown_failure_cost,
             "adaptive": self.settings.adaptive,
             "value": finite(self.value),
             "value_unit": self.value_unit,

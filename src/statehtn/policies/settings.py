@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from statehtn.errors import UsageError
@@ -62,6 +63,11 @@ class PolicySettings:
             return None
         found = problem_class("state", self.objective, "n" if has_outcomes else "1")
         return None if found is None else str(found)
+
+    @property
+    def shown_failure_cost(self) -> float | str | None:
+        """What failing costs, as JSON has it: `inf` where it is infinite."""
+        return "inf" if self.failure_cost is not None and math.isinf(self.failure_cost) else self.failure_cost
 
     @property
     def attitude(self) -> str | None:
