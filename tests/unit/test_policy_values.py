@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 
 from statehtn.errors import InputError
-from statehtn.model import CostDistribution
+from statehtn.model import CostDistribution, Step
 from statehtn.model.cost.infinite import InfiniteMean
-from statehtn.model.policy_graph import End, PolicyGraph
+from statehtn.model.policy_graph import Branch, Decision, End, PolicyGraph, PolicyNode
 from statehtn.policies.policy import Policy
 from statehtn.risk import objective
 from statehtn.risk.success import Success
@@ -122,6 +122,46 @@ def test_runs_without_an_end() -> None:
     assert (free.outcomes, free.least, free.most) == (((1, 7),), 7, 7)
     paid = policy(never).cost_distribution()
     assert (paid.least, paid.most) == (math.inf, math.inf)
+
+
+def chain_of(*rows: tuple[tuple[float, float, int], ...]) -> PolicyGraph:
+    """A policy whose nodes have branches (probability, cost, successor)."""
+    nodes = []
+    for index, row in enumerate(rows):
+        branches = (Branch(p, CostDistribution.certain(cost), to) for p, cost, to in row)
+        nodes.append(PolicyNode(frozenset(), (), (), Decision(0, Step(f"a{index}"), tuple(branches))))
+    return PolicyGraph.of(nodes)
+
+
+@pytest.mark.parametrize("before", [((0.5, 0, 0), (0.5, 0, 1)), ((1.0, 0, 1),)], ids=["loop", "step"])
+def test_what_leads_to_runs_without_an_end(before: tuple[tuple[float, float, int], ...]) -> None:
+    """A loop that is left is no failed run yet, though what it leads to never ends."""
+    paid = policy(chain_of(before, ((1.0, 1, 1),)), failure_cost=7).cost_distribution()
+    assert paid.infinite == 1
+    assert paid.mean == math.inf
+    assert [paid.chain.exponential_mean(slope, 7) for slope in (0.3, -0.3)] == [math.inf, math.inf]
+    free = policy(chain_of(before, ((1.0, 0, 1),)), failure_cost=7).cost_distribution()
+    assert free.mean == 7
+    assert free.exponential_mean(0.3) == pytest.approx(7, rel=1e-12)
+    assert free.exponential_mean(-0.3) == pytest.approx(7, rel=1e-12)
+
+
+def test_a_loop_that_costs_something_before_runs_fail() -> None:
+    law = policy(chain_of(((0.5, 1, 0), (0.5, 1, 1)), ((1.0, 0, 1),)), failure_cost=7).cost_distribution()
+    assert law.mean == pytest.approx(9, rel=1e-12)
+    e = math.exp(0.3)
+    assert law.exponential_mean(0.3) == pytest.approx(7 + math.log(0.5 * e / (1 - 0.5 * e)) / 0.3, rel=1e-12)
+    assert law.failed == 1
+
+
+@settings(deadline=None)
+@given(graphs())
+def test_means_are_infinite_where_runs_may_pay_for_ever(graph: PolicyGraph) -> None:
+    law = policy(graph, failure_cost=5.0).cost_distribution()
+    if law.infinite > 0:
+        assert law.mean == math.inf
+    elif law.totals.cut < 1e-12:
+        assert math.isclose(law.mean, math.fsum(p * cost for p, cost in law.outcomes), rel_tol=1e-9, abs_tol=1e-9)
 
 
 def _followed(graph: PolicyGraph) -> tuple[dict[float, float], dict[float, float], float]:

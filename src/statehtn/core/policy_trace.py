@@ -39,6 +39,7 @@ class PolicyReader:
         self.laws = laws
         self._traces = TraceReader(grounding)
         self._facts: dict[int, Fact] = {}
+        self._known: dict[tuple[int, ...], frozenset[Fact]] = {}
 
     @cached_property
     def flat(self) -> FlatPolicy:
@@ -75,8 +76,14 @@ class PolicyReader:
             None if end is not None else self._decision(number, tasks, facts, handle),
             end,
             self.laws.left(run, number),
-            frozenset(map(self._fact, run.known(number))),
+            self._known_by(tuple(run.known(number))),
         )
+
+    def _known_by(self, numbers: tuple[int, ...]) -> frozenset[Fact]:
+        """Return facts; many nodes have the same ones."""
+        if numbers not in self._known:
+            self._known[numbers] = frozenset(map(self._fact, numbers))
+        return self._known[numbers]
 
     def _decision(self, number: int, tasks: Sequence[int], facts: set[int], handle: _relax.GroundProblem) -> Decision:
         index, method = self.run.step(number)

@@ -42,9 +42,17 @@ class Chain:
         node = component[0]
         return len(component) > 1 or any(self.flat.successors[branch] == node for branch in self.flat.branches(node))
 
+    def is_closed(self, component: Sequence[int]) -> bool:
+        """Tell whether a component is a loop without a way out."""
+        flat = self.flat
+        inside = set(component)
+        return flat.ends[component[0]] is None and all(
+            flat.successors[branch] in inside for node in component for branch in flat.branches(node)
+        )
+
     @cached_property
     def endless(self) -> bytearray:
-        """For each node whether runs from it never end: all that it leads to is a loop without a way out."""
+        """For each node whether runs from it never end: all that it leads to comes to a loop without a way out."""
         flat = self.flat
         found = bytearray(len(flat))
         for component in self.order:
@@ -200,7 +208,7 @@ class Chain:
     ) -> None:
         """Solve `value = constant + sum of weight * value of the successor`; values of ends and known nodes are given.
 
-        A loop that is never left is a failed run: its value is infinite where its constants are not 0.
+        A loop without a way out is a failed run: its value is infinite where its constants are not 0.
         """
         flat = self.flat
         for component in self.order:
@@ -211,7 +219,7 @@ class Chain:
                 products = [weights[b] * values[flat.successors[b]] for b in flat.branches(node)]
                 values[node] = math.fsum((constants[node], *products)) if math.inf not in products else math.inf
                 continue
-            if self.endless[component[0]]:
+            if self.is_closed(component):
                 is_free = not any(constants[node] for node in component)
                 for node in component:
                     values[node] = failure if is_free else math.inf
@@ -239,10 +247,11 @@ class Chain:
             for node in component
         }
         scale = max((log for some in out.values() for log in some), default=-math.inf)
-        if self.endless[component[0]]:
+        is_closed = self.is_closed(component)
+        if is_closed:
             is_free = all(flat.laws[b].most == 0 for node in component for b in flat.branches(node))
             scale = slope * failure if is_free else math.copysign(math.inf, slope)
-        if math.isinf(scale) or self.endless[component[0]]:
+        if is_closed or math.isinf(scale):
             for node in component:
                 logs[node] = scale
             return

@@ -15,8 +15,10 @@ if TYPE_CHECKING:
 
     Vector = NDArray[float64]
 
+FEW = 100
+"""Equations: more are solved as sparse ones where scipy is installed; dense ones take the cube of their number."""
 MOST_DENSE = 400
-"""Equations: more are solved as sparse ones."""
+"""Equations that are solved without scipy."""
 
 
 def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], count: int) -> list[float]:
@@ -27,7 +29,7 @@ def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], c
     """
     import numpy
 
-    if count <= MOST_DENSE:
+    def dense_solution() -> list[float]:
         dense = numpy.eye(count)
         for i, j, weight in matrix:
             dense[i, j] -= weight
@@ -36,10 +38,15 @@ def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], c
         except numpy.linalg.LinAlgError:
             return [math.inf] * count
         return [float(value) for value in found]
+
+    if count <= FEW:
+        return dense_solution()
     try:
         from scipy.sparse import csr_matrix, identity
         from scipy.sparse.linalg import spsolve
     except ImportError:
+        if count <= MOST_DENSE:
+            return dense_solution()
         raise UsageError(
             f"the value of a policy that loops through {count} states needs the package 'scipy': "
             "pip install 'statehtn[scipy]'"
