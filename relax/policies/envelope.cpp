@@ -1,10 +1,27 @@
 #include "relax/policies/envelope.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace relax {
 
 void Envelope::assign(std::span<const PolicyNodeId> members, Outside outside) {
+    take(members);
+    find_components();
+    take(ordered_);
+    barred_.clear();
+    worths_.clear();
+    choices_.clear();
+    for (const PolicyNodeId member : members_) {
+        worths_.push_back(graph_[member].lower);
+        choices_.push_back(graph_[member].choice);
+    }
+    set_outside(outside);
+    restore_stops();
+}
+
+// Give members their places in this order, and find out where their decisions lead.
+void Envelope::take(std::span<const PolicyNodeId> members) {
     for (const PolicyNodeId node : members_) {
         places_[node] = kOutside;
     }
@@ -13,22 +30,11 @@ void Envelope::assign(std::span<const PolicyNodeId> members, Outside outside) {
     }
     places_.resize(graph_.size(), kOutside);
     members_.assign(members.begin(), members.end());
-    barred_.clear();
-    worths_.clear();
-    choices_.clear();
     for (std::uint32_t place = 0; place < members_.size(); ++place) {
-        const DecisionGraph::Node& node = graph_[members_[place]];
-        assert(node.is_expanded && !node.is_done && places_[members_[place]] == kOutside);
+        assert(graph_[members_[place]].is_expanded && !graph_[members_[place]].is_done);
+        assert(places_[members_[place]] == kOutside);
         places_[members_[place]] = place;
-        worths_.push_back(node.lower);
-        choices_.push_back(node.choice);
     }
-    find_targets();
-    set_outside(outside);
-    restore_stops();
-}
-
-void Envelope::find_targets() {
     around_.clear();
     targets_.clear();
     first_target_.clear();
@@ -47,6 +53,28 @@ void Envelope::find_targets() {
             }
         }
     }
+    first_target_.push_back(targets_.size());
+}
+
+void Envelope::find_components() {
+    ordered_.clear();
+    component_ends_.clear();
+    std::vector<std::uint32_t> places;
+    components_.find(
+        size(), [this](std::uint32_t place) { return targets(place); },
+        [&](std::span<const std::uint32_t> component) {
+            places.assign(component.begin(), component.end());
+            std::ranges::sort(places);
+            for (const std::uint32_t place : places) {
+                ordered_.push_back(members_[place]);
+            }
+            component_ends_.push_back(static_cast<std::uint32_t>(ordered_.size()));
+        });
+}
+
+bool Envelope::has_loop(std::uint32_t place) const {
+    const auto all = targets(place);
+    return std::ranges::find(all, place) != all.end();
 }
 
 void Envelope::set_outside(Outside outside, const SegmentedArray<double>* given) {

@@ -35,10 +35,10 @@ namespace {
 
 // What it saves to expand no node that need not be expanded is not known here: as much as many evaluations.
 constexpr std::uint64_t kWorkSaved = std::uint64_t{1} << 8;
-// In units of the heuristic's work: it may take so much for each pair, about what an expansion takes, and at
-// first a part of a second.
+// In units of the heuristic's work: at first it may take a part of a second; then as much as an expansion takes, about,
+// for each pair that was never looked at closer, since it has not saved more than the expansion of these.
 constexpr std::uint64_t kWorkPerPair = 1500;
-constexpr std::uint64_t kFirstWork = std::uint64_t{1} << 26;
+constexpr std::uint64_t kFirstWork = std::uint64_t{1} << 24;
 
 }  // namespace
 
@@ -51,13 +51,16 @@ PairBounds::PairBounds(const PricedProblem& priced, const HeuristicInfo& heurist
 
 Cost PairBounds::known(PairId pair) {
     while (pair >= entries_.size()) {
-        entries_.push_back({network_bounds_[nodes_.network(PairId(entries_.size()))], false});
+        entries_.push_back({network_bounds_[nodes_.network(PairId(entries_.size()))], false, false});
     }
     return entries_[pair].bound;
 }
 
 Cost PairBounds::closer(PairId pair) {
-    Entry entry{known(pair), entries_[pair].is_asked};
+    known(pair);
+    Entry& entry = entries_[pair];
+    met_pairs_ += entry.is_met ? 0 : 1;
+    entry.is_met = true;
     if (entry.is_asked || entry.bound >= kInfinity || !is_affordable() || !heuristic_.is_worth_asking()) {
         return entry.bound;
     }
@@ -65,10 +68,13 @@ Cost PairBounds::closer(PairId pair) {
     view.tdg_bound = entry.bound;
     const Cost told = heuristic_->evaluate(view).value_or(kInfinity);
     heuristic_.note_answer(told > entry.bound, kWorkSaved);
-    entries_[pair] = {std::max(entry.bound, told), true};
-    return entries_[pair].bound;
+    entry.bound = std::max(entry.bound, told);
+    entry.is_asked = true;
+    return entry.bound;
 }
 
-bool PairBounds::is_affordable() { return heuristic_->work() <= kFirstWork + kWorkPerPair * nodes_.pair_count(); }
+bool PairBounds::is_affordable() {
+    return heuristic_->work() <= kFirstWork + kWorkPerPair * (nodes_.pair_count() - met_pairs_);
+}
 
 }  // namespace relax

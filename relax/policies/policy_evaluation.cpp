@@ -28,10 +28,14 @@ double missing(std::span<const double> weights) {
 }  // namespace
 
 LinearOutcome PolicyEvaluation::evaluate(Envelope& envelope, Recursion kind) {
-    LinearOutcome worst = LinearOutcome::Solved;
     index_.assign(envelope.size(), kElsewhere);
+    return evaluate(envelope, kind, 0, envelope.size());
+}
+
+LinearOutcome PolicyEvaluation::evaluate(Envelope& envelope, Recursion kind, std::uint32_t first, std::uint32_t end) {
+    LinearOutcome worst = LinearOutcome::Solved;
     components_.find(
-        envelope.size(), [&](std::uint32_t place) { return envelope.next(place); },
+        first, end - first, [&](std::uint32_t place) { return envelope.next(place); },
         [&](std::span<const std::uint32_t> component) {
             worst = std::max(worst, evaluate_component(envelope, kind, component));
         });

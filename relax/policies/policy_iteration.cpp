@@ -142,24 +142,43 @@ void PolicyIteration::stop_where_infinite(Envelope& envelope, Recursion kind) {
     }
 }
 
+// Component by component: what comes after it is settled by then.
 void PolicyIteration::iterate(Envelope& envelope, Recursion kind) {
-    std::vector<double> before(envelope.size());
+    std::uint32_t first = 0;
+    for (const std::uint32_t end : envelope.component_ends()) {
+        limits_.stop_if_reached();
+        if (end == first + 1 && !envelope.has_loop(first)) {
+            if (std::isfinite(envelope.worth(first))) {
+                envelope.set_worth(first, envelope.worth_by(first, kind, envelope.choice(first)));
+                choose_best(envelope, kind, first);
+            }
+        } else {
+            iterate(envelope, kind, first, end);
+        }
+        first = end;
+    }
+}
+
+void PolicyIteration::iterate(Envelope& envelope, Recursion kind, std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t round = 0; round < kMostRounds; ++round) {
-        for (std::uint32_t place = 0; place < envelope.size(); ++place) {
-            before[place] = envelope.worth(place);
+        before_.clear();
+        for (std::uint32_t place = first; place < end; ++place) {
+            before_.push_back(envelope.worth(place));
         }
         std::uint32_t sweeps = 0;
-        while (sweeps < kSweeps && sweep(envelope, kind)) {
+        while (sweeps < kSweeps && sweep(envelope, kind, first, end)) {
             ++sweeps;
         }
         if (sweeps == 0) {
             return;
         }
-        is_undecided_ = evaluation_.evaluate(envelope, kind) == LinearOutcome::Undecided || is_undecided_;
+        is_undecided_ = evaluation_.evaluate(envelope, kind, first, end) == LinearOutcome::Undecided || is_undecided_;
+        visited_ += end - first;
         // Below rounding, worths may seem to fall again and again.
         bool has_fallen = false;
-        for (std::uint32_t place = 0; place < envelope.size() && !has_fallen; ++place) {
-            has_fallen = envelope.worth(place) < before[place] - slack_of(before[place]);
+        for (std::uint32_t place = first; place < end && !has_fallen; ++place) {
+            const double before = before_[place - first];
+            has_fallen = envelope.worth(place) < before - slack_of(before);
         }
         if (!has_fallen) {
             return;
@@ -167,40 +186,45 @@ void PolicyIteration::iterate(Envelope& envelope, Recursion kind) {
     }
 }
 
-// Let each node take the best decision, if that is better than its own. Says whether there was one.
-bool PolicyIteration::sweep(Envelope& envelope, Recursion kind) {
+bool PolicyIteration::sweep(Envelope& envelope, Recursion kind, std::uint32_t first, std::uint32_t end) {
     bool has_changed = false;
-    for (std::uint32_t place = 0; place < envelope.size(); ++place) {
+    for (std::uint32_t place = first; place < end; ++place) {
         limits_.stop_if_reached();
-        const double worth = envelope.worth(place);
-        if (worth == kNever || worth == -kNever) {
-            continue;
-        }
-        double best = worth - slack_of(worth);
-        DecisionId choice = envelope.choice(place);
-        bool is_better = false;
-        const auto offer = [&](double offered, DecisionId decision) {
-            if (offered < best) {
-                best = offered;
-                choice = decision;
-                is_better = true;
-            }
-        };
-        if (envelope.stop(place) != kNever) {
-            offer(envelope.stop(place), kStop);
-        }
-        for (const DecisionId decision : envelope.graph().decisions_of(envelope.node(place))) {
-            if (!envelope.is_barred(place, decision)) {
-                offer(envelope.worth_by(place, kind, decision), decision);
-            }
-        }
-        if (is_better) {
-            envelope.set_worth(place, best);
-            envelope.choose(place, choice);
-            has_changed = true;
-        }
+        has_changed = choose_best(envelope, kind, place) || has_changed;
     }
     return has_changed;
+}
+
+// Let a node take the best decision, if that is better than its own; says whether it was.
+bool PolicyIteration::choose_best(Envelope& envelope, Recursion kind, std::uint32_t place) {
+    ++visited_;
+    const double worth = envelope.worth(place);
+    if (worth == kNever || worth == -kNever) {
+        return false;
+    }
+    double best = worth - slack_of(worth);
+    DecisionId choice = envelope.choice(place);
+    bool is_better = false;
+    const auto offer = [&](double offered, DecisionId decision) {
+        if (offered < best) {
+            best = offered;
+            choice = decision;
+            is_better = true;
+        }
+    };
+    if (envelope.stop(place) != kNever) {
+        offer(envelope.stop(place), kStop);
+    }
+    for (const DecisionId decision : envelope.graph().decisions_of(envelope.node(place))) {
+        if (!envelope.is_barred(place, decision)) {
+            offer(envelope.worth_by(place, kind, decision), decision);
+        }
+    }
+    if (is_better) {
+        envelope.set_worth(place, best);
+        envelope.choose(place, choice);
+    }
+    return is_better;
 }
 
 }  // namespace relax

@@ -8,7 +8,8 @@ namespace relax {
 namespace {
 
 constexpr std::uint32_t kRoundsUntilIteration = 8;  // without an open node, while choices still change
-constexpr std::uint32_t kQuietIterations = 4;       // then all that is explored is taken into the envelope
+constexpr std::uint32_t kQuietIterations = 4;       // then all that is explored is taken into the envelope ...
+constexpr std::size_t kNearlyAll = 2;               // or as soon as it is no more than so many times as much
 constexpr std::size_t kUpperGrowth = 8;             // of what is explored, until an upper worth is found again
 constexpr std::size_t kPlunges = 1000;              // per round at least
 constexpr std::uint32_t kRoundsAside = 64;          // from a node that is not the root
@@ -65,14 +66,14 @@ void PolicySearch::search() {
             members_.clear();
             ++gathering_;
         }
-        gather(order_);
+        std::ranges::for_each(order_, [this](PolicyNodeId node) { gather(node); });
         if (has_met_open && hurries()) {
             expand_around();
         }
         if (!has_met_open && (!has_changed_ || ++quiet_rounds_ >= kRoundsUntilIteration)) {
             quiet_rounds_ = 0;
-            if (++quiet_iterations_ >= kQuietIterations) {
-                gather(explored_);
+            if (++quiet_iterations_ >= kQuietIterations || explored_.size() <= kNearlyAll * members_.size()) {
+                std::for_each(explored_.rbegin(), explored_.rend(), [this](PolicyNodeId node) { gather(node); });
             }
             if (improve_envelope() || graph_[root_].lower == kNever || is_near()) {
                 return;
@@ -234,10 +235,12 @@ void PolicySearch::note_costs() {
 
 // Find the best policy of the envelope.
 void PolicySearch::improve(Outside outside) {
-    constexpr std::uint64_t kPasses = 8;  // through the envelope, at a guess
+    constexpr std::uint64_t kPasses = 4;  // through the envelope, at a guess, besides those of the iteration
     ++statistics_.iterations;
     walked_ += kPasses * envelope_.size();
+    const std::uint64_t before = iteration_.visited();
     iteration_.improve(envelope_, options_.recursion);
+    walked_ += iteration_.visited() - before;
     if (options_.breaks_ties) {
         worths_.clear();
         for (std::uint32_t place = 0; place < envelope_.size(); ++place) {

@@ -8,14 +8,12 @@
 
 namespace relax {
 
-// Take nodes into the envelope.
-void PolicySearch::gather(std::span<const PolicyNodeId> nodes) {
-    for (const PolicyNodeId node : nodes) {
-        DecisionGraph::Node& gathered = graph_[node];
-        if (gathered.gathered != gathering_ && gathered.lower != kNever) {
-            gathered.gathered = gathering_;
-            members_.push_back(node);
-        }
+// Take a node into the envelope.
+void PolicySearch::gather(PolicyNodeId node) {
+    DecisionGraph::Node& gathered = graph_[node];
+    if (gathered.gathered != gathering_ && gathered.lower != kNever) {
+        gathered.gathered = gathering_;
+        members_.push_back(node);
     }
 }
 
@@ -36,30 +34,40 @@ bool PolicySearch::improve_envelope() {
     return keep_if_closed(Outside::Lower);
 }
 
-// Expand some of the open nodes to which decisions of the envelope lead: as many as it has, so that all envelopes
-// together are not much more than the last one.
+// Expand open nodes to which decisions of the envelope lead, those to which decisions of these lead, and so on: as many
+// as the envelope has, so that all envelopes together are not much more than the last one.
 void PolicySearch::expand_around() {
-    std::vector<PolicyNodeId> open;
     ++round_;
-    for (auto node = members_.rbegin(); node != members_.rend() && open.size() <= members_.size(); ++node) {
-        for (const DecisionId decision : graph_.decisions_of(*node)) {
-            for (const PolicyNodeId to : graph_.successors(decision)) {
-                DecisionGraph::Node& found = graph_[to];
-                if (!found.is_expanded && found.visited != round_ && found.lower < found.stop) {
-                    found.visited = round_;
-                    open.push_back(to);
-                }
+    std::vector<PolicyNodeId> from(members_.rbegin(), members_.rend());
+    std::vector<PolicyNodeId> open;
+    for (std::size_t left = members_.size(); left > 0 && !from.empty(); left -= std::min(left, open.size())) {
+        open.clear();
+        for (auto node = from.begin(); node != from.end() && open.size() < left; ++node) {
+            list_open(*node, open);
+        }
+        for (const PolicyNodeId node : open) {
+            limits_.stop_if_reached();
+            DecisionGraph::Node& found = graph_[node];
+            found.lower = std::max(found.lower, std::min(source_.bound(node, found.lower), found.stop));
+            ++statistics_.evaluated;
+            if (found.lower < found.stop) {
+                expand(node);
+                back_up(node);
             }
         }
+        from = open;
     }
-    for (const PolicyNodeId node : open) {
-        limits_.stop_if_reached();
-        DecisionGraph::Node& found = graph_[node];
-        found.lower = std::max(found.lower, std::min(source_.bound(node, found.lower), found.stop));
-        ++statistics_.evaluated;
-        if (found.lower < found.stop) {
-            expand(node);
-            back_up(node);
+}
+
+// Append the open nodes to which decisions of a node lead, if they were not met in this round.
+void PolicySearch::list_open(PolicyNodeId node, std::vector<PolicyNodeId>& open) {
+    for (const DecisionId decision : graph_.decisions_of(node)) {
+        for (const PolicyNodeId to : graph_.successors(decision)) {
+            DecisionGraph::Node& found = graph_[to];
+            if (!found.is_expanded && found.visited != round_ && found.lower < found.stop) {
+                found.visited = round_;
+                open.push_back(to);
+            }
         }
     }
 }

@@ -18,6 +18,12 @@ public:
     // until the next call with the same vertex. `visit(component)`: a span of its vertices.
     template <typename Successors, typename Visit>
     void find(std::uint32_t count, Successors successors, Visit visit) {
+        find(0, count, successors, visit);
+    }
+    // Of the graph of the vertices from `first` on, so many.
+    template <typename Successors, typename Visit>
+    void find(std::uint32_t first, std::uint32_t count, Successors successors, Visit visit) {
+        first_ = first;
         index_.assign(count, kUnseen);
         low_.resize(count);
         std::uint32_t next = 0;
@@ -25,19 +31,20 @@ public:
             if (index_[start] != kUnseen) {
                 continue;
             }
-            enter(start, next);
+            enter(first_ + start, next);
             while (!frames_.empty()) {
                 Frame& frame = frames_.back();
                 const auto row = successors(frame.vertex);
                 if (frame.at < row.size()) {
                     const std::uint32_t to = row[frame.at++];
-                    if (to >= count) {
+                    if (to < first_ || to - first_ >= count) {
                         continue;
                     }
-                    if (index_[to] == kUnseen) {
+                    const std::uint32_t index = index_[to - first_];
+                    if (index == kUnseen) {
                         enter(to, next);
-                    } else if (index_[to] != kClosed) {
-                        low_[frame.vertex] = std::min(low_[frame.vertex], index_[to]);
+                    } else if (index != kClosed) {
+                        low(frame.vertex) = std::min(low(frame.vertex), index);
                     }
                     continue;
                 }
@@ -55,8 +62,10 @@ private:
         std::uint32_t at;
     };
 
+    std::uint32_t& low(std::uint32_t vertex) { return low_[vertex - first_]; }
+
     void enter(std::uint32_t vertex, std::uint32_t& next) {
-        index_[vertex] = low_[vertex] = next++;
+        index_[vertex - first_] = low(vertex) = next++;
         stack_.push_back(vertex);
         frames_.push_back({vertex, 0});
     }
@@ -66,10 +75,10 @@ private:
         const std::uint32_t vertex = frames_.back().vertex;
         frames_.pop_back();
         if (!frames_.empty()) {
-            std::uint32_t& low = low_[frames_.back().vertex];
-            low = std::min(low, low_[vertex]);
+            std::uint32_t& above = low(frames_.back().vertex);
+            above = std::min(above, low(vertex));
         }
-        if (low_[vertex] != index_[vertex]) {
+        if (low(vertex) != index_[vertex - first_]) {
             return;
         }
         std::size_t begin = stack_.size() - 1;
@@ -77,13 +86,14 @@ private:
             --begin;
         }
         for (std::size_t at = begin; at < stack_.size(); ++at) {
-            index_[stack_[at]] = kClosed;
+            index_[stack_[at] - first_] = kClosed;
         }
         visit(std::span<const std::uint32_t>(stack_).subspan(begin));
         stack_.resize(begin);
     }
 
-    std::vector<std::uint32_t> index_;  // by vertex, in the order of discovery
+    std::uint32_t first_ = 0;
+    std::vector<std::uint32_t> index_;  // by vertex from `first_` on, in the order of discovery
     std::vector<std::uint32_t> low_;
     std::vector<std::uint32_t> stack_;
     std::vector<Frame> frames_;

@@ -9,6 +9,7 @@
 
 #include "relax/base/flat_array.hpp"
 #include "relax/base/segmented_array.hpp"
+#include "relax/base/strong_components.hpp"
 #include "relax/policies/decision_graph.hpp"
 #include "relax/policies/recursion.hpp"
 
@@ -22,7 +23,8 @@ enum class Outside : std::uint8_t {
     Given,    // numbers that are given by node, or else 0
 };
 
-// Some expanded nodes, and a policy on them with what its decisions make them worth. Members have places: their numbers
+// Some expanded nodes, and a policy on them with what its decisions make them worth. Members have places: strongly
+// connected components by all decisions follow each other, those first that others lead to, and within one its members
 // in the order in which they were given, best with successors first. The nodes outside to which decisions lead have the
 // places after these.
 class Envelope {
@@ -40,6 +42,10 @@ public:
 
     const DecisionGraph& graph() const { return graph_; }
     std::uint32_t size() const { return static_cast<std::uint32_t>(members_.size()); }
+    // The places after the last one of each component.
+    std::span<const std::uint32_t> component_ends() const { return component_ends_; }
+    // Whether some decision may lead from a place to itself.
+    bool has_loop(std::uint32_t place) const;
     PolicyNodeId node(std::uint32_t place) const { return members_[place]; }
     // At least `size()` for nodes outside.
     std::uint32_t place(PolicyNodeId node) const { return node < places_.size() ? places_[node] : kOutside; }
@@ -94,7 +100,12 @@ private:
         const std::size_t begin = first_target_[place] + (graph_.first_outcome(decision) - first_outcome_[place]);
         return {targets_.data() + begin, graph_.weights(decision).size()};
     }
-    void find_targets();
+    // Where any decision leads from there.
+    std::span<const std::uint32_t> targets(std::uint32_t place) const {
+        return {targets_.data() + first_target_[place], first_target_[place + 1] - first_target_[place]};
+    }
+    void take(std::span<const PolicyNodeId> members);
+    void find_components();
 
     const DecisionGraph& graph_;
     Outside outside_ = Outside::Lower;
@@ -104,12 +115,15 @@ private:
     std::vector<PolicyNodeId> around_;        // nodes outside, in the order of their places
     std::vector<double> worths_;              // also of those
     std::vector<std::uint32_t> targets_;      // by outcome of a member's decisions
-    std::vector<std::size_t> first_target_;   // by place
+    std::vector<std::size_t> first_target_;   // by place, and at the end the number of all
     std::vector<std::size_t> first_outcome_;  // by place, in the graph
     std::vector<double> stops_;
     std::vector<DecisionId> choices_;
     std::vector<bool> barred_;  // by decision of a member; empty while none is
     std::vector<std::uint32_t> first_;
+    StrongComponents components_;
+    std::vector<std::uint32_t> component_ends_;
+    std::vector<PolicyNodeId> ordered_;  // members, component by component
 };
 
 }  // namespace relax

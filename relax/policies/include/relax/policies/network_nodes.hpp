@@ -76,7 +76,8 @@ public:
 private:
     struct Entry {
         Cost bound;
-        bool is_asked;
+        bool is_asked;  // the heuristic
+        bool is_met;    // by a closer look, with or without the heuristic
     };
 
     bool is_affordable();
@@ -86,6 +87,7 @@ private:
     NetworkBounds network_bounds_;
     SelectiveHeuristic heuristic_;
     SegmentedArray<Entry> entries_;
+    std::size_t met_pairs_ = 0;
 };
 
 }  // namespace relax

@@ -31,6 +31,9 @@ public:
     // Replace the worths by those of the policy. Where it has none (an averse agent's loop that costs more than can be
     // expected, and all that may lead there), the worth is kNever. Returns the worst that came up. Throws Stopped.
     LinearOutcome evaluate(Envelope& envelope, Recursion kind);
+    // The same for the places from `first` to before `end`, which contain each component that they have a part of. The
+    // whole envelope was evaluated before.
+    LinearOutcome evaluate(Envelope& envelope, Recursion kind, std::uint32_t first, std::uint32_t end);
 
 private:
     LinearOutcome evaluate_component(Envelope& envelope, Recursion kind, std::span<const std::uint32_t> component);

@@ -39,6 +39,11 @@ namespace relax {
 //   (and finite) has smaller ones. For W <= T_pi W, applied again and again, says that W is below what pi has cost
 //   after so many steps plus the expected W where it is then; the latter goes to what is at the end.
 //
+// All this is done component by component, of the graph of all decisions, those first that others lead to (as in the
+// topological value iteration of Dai and Goldsmith 2007). What a component leads to is settled by then, and given: its
+// worths have only fallen, so that W >= T_pi W still holds in the component, and the above holds of it alone. A node
+// that is in no loop takes its best decision, and that is all.
+//
 // An averse agent's finite policy to begin with. Let what is at the end be worth nothing at all (e^W = 0) and stopping
 // anywhere 1, and improve the policy that stops everywhere. Where e^W = 0 at the end, a finite policy was found that
 // does not stop. Elsewhere there is none: v = e^W satisfies v <= Q v for every decision and v = 0 at the ends, so that
@@ -63,6 +68,8 @@ public:
     // tell.
     bool found_infinite() const { return found_infinite_; }
     bool is_undecided() const { return is_undecided_; }
+    // How many times a place was improved or evaluated so far: what all this took.
+    std::uint64_t visited() const { return visited_; }
 
 private:
     void start_finite(Envelope& envelope, Recursion kind);
@@ -70,11 +77,15 @@ private:
     bool spread_near(const Envelope& envelope, const std::vector<bool>& is_near, std::vector<bool>& leaves);
     void stop_where_infinite(Envelope& envelope, Recursion kind);
     void iterate(Envelope& envelope, Recursion kind);
-    bool sweep(Envelope& envelope, Recursion kind);
+    void iterate(Envelope& envelope, Recursion kind, std::uint32_t first, std::uint32_t end);
+    bool sweep(Envelope& envelope, Recursion kind, std::uint32_t first, std::uint32_t end);
+    bool choose_best(Envelope& envelope, Recursion kind, std::uint32_t place);
 
     Limits& limits_;
     PolicyEvaluation evaluation_;
     SureRegion sure_region_;
+    std::vector<double> before_;  // by place of a component: worths before a round
+    std::uint64_t visited_ = 0;
     bool found_infinite_ = false;
     bool is_undecided_ = false;
 };

@@ -58,11 +58,12 @@ struct PolicySearchResult {
 // monotone.
 //
 // Where loops cost nothing, or an agent that seeks risk, or one without a proper policy, could wait for ever, backing
-// up does not lead to V*. So, once a round has met no open node, the envelope's best policy is found by policy
-// iteration, nodes outside being worth L; V* restricted to the envelope is at least that. If that policy stays inside,
-// it is worth what it was found to be, and so is the best of all. Nodes from which nothing can be reached become worth
-// kNever. If it leaves the envelope, the nodes that it leads to are met in the next round: an open one, or they are
-// added to the envelope. So it grows until one or the other comes; else two loops could refer to each other for ever.
+// up does not lead to V*. So, once a round has met no open node, the best policy of the envelope (the nodes of the
+// rounds since then, or all that are explored if these are not many more) is found by policy iteration, nodes outside
+// being worth L; V* restricted to the envelope is at least that. If that policy stays inside, it is worth what it was
+// found to be, and so is the best of all. Nodes from which nothing can be reached become worth kNever. If it leaves the
+// envelope, the nodes that it leads to are met in the next round: an open one, or they are added to the envelope. So it
+// grows until one or the other comes; else two loops could refer to each other for ever.
 //
 // From time to time the best policy of all that is explored is found, open nodes being nodes to stop at: an upper
 // worth. When the two are near enough, or a limit is reached, that is the result.
@@ -105,9 +106,10 @@ private:
     void expand(PolicyNodeId node);
     bool back_up(PolicyNodeId node);
     bool back_up_cost(PolicyNodeId node, bool has_risen);
-    void gather(std::span<const PolicyNodeId> nodes);
+    void gather(PolicyNodeId node);
     bool improve_envelope();
     void expand_around();
+    void list_open(PolicyNodeId node, std::vector<PolicyNodeId>& open);
     // Whether going through policies and improving them has taken more than expanding nodes. More nodes are expanded in
     // passing then, also such as the best policy by the lower worths may not need.
     bool hurries() const { return walked_ > kWalkedPerNode * (statistics_.expanded + kFewNodes); }
