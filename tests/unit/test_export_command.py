@@ -61,6 +61,13 @@ def test_giving_up_is_a_decision_of_the_process(tmp_path: Path) -> None:
     assert cost == pytest.approx(2, rel=1e-5)
 
 
+def test_a_failure_cost_that_is_too_large_for_whole_numbers(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", *GRIPPER, "--prism", "-", "--failure-cost", "1e300"]) == 31
+    assert "the costs of this problem and the failure cost of 1e+300 have no unit" in capsys.readouterr().err
+    assert main(["export", *GRIPPER, "--policy", "--prism", "-", "--failure-cost", "1e300"]) == 2
+    assert "too large beside the costs" in capsys.readouterr().err
+
+
 def test_no_policy_no_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "policy.prism"
     arguments = ["export", *GRIPPER, "--policy", "--prism", str(file), "--objective", "averse 0.7"]

@@ -243,3 +243,31 @@ def test_a_limit_leaves_a_policy_and_both_values() -> None:
     if result.policy is not None:
         assert result.lower_bound <= result.value + 1e-9
         assert result.upper_bound == pytest.approx(result.value)
+
+
+@pytest.mark.parametrize("objective", ["neutral", "averse 0.1", "overrun 5", "evar 0.5", "cvar 0.9"])
+def test_a_failure_cost_beside_which_costs_are_lost(objective: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The largest expected cost is 9, of a try by the claw."""
+    options = ("--objective", objective, "--failure-cost")
+    for wrong in ("1e300", "9.1e9"):
+        code, out, err = run(capsys, "policy", *GRIPPER, *options, wrong)
+        assert (code, out) == (2, "")
+        assert "take at most 9e+09, 10^9 times the largest expected cost of an action" in err
+        assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("failure_cost", [1e4, 1e7, 6e9])
+def test_giving_up_is_not_the_best_because_of_rounding(failure_cost: float) -> None:
+    """To try gains an averse agent about 20, however much failing costs."""
+    problem = statehtn.read_hddl(GRIPPER[0], "domains/gripper-robot/p3.hddl")
+    for objective in ("neutral", "averse 0.1"):
+        result = statehtn.policy(problem, objective=objective, failure_cost=failure_cost)
+        assert result.success_probability == pytest.approx(8 / 9)
+    assert failure_cost - result.value == pytest.approx(19.7231663, abs=1e-4)
+
+
+@pytest.mark.parametrize("objective", ["deadline 8", "quantile 0.5"])
+def test_amounts_in_steps_are_exact(objective: str) -> None:
+    problem = statehtn.read_hddl(*GRIPPER)
+    values = {statehtn.policy(problem, objective=objective, failure_cost=cost).value for cost in (1e300, math.inf)}
+    assert len(values) == 1

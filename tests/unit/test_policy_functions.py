@@ -43,7 +43,7 @@ def squared(cost: float) -> float:
 
 
 def test_too_many_amounts_are_said_in_words() -> None:
-    for failure_cost, shown in ((2.0**21, "1048580"), (1e300, "5e\\+299")):
+    for failure_cost, shown in ((2.0**21, "1048580"), (1.5e9, "750000004")):
         with pytest.raises(UnsupportedError, match=f"there are {shown} of them, more than 1048576; round the costs"):
             policy(tries(), failure_cost=failure_cost)
 

@@ -10,6 +10,7 @@ from statehtn.core.label_run import PRECISION
 from statehtn.core.policy_bounded import bounded_disutility
 from statehtn.core.policy_cut import CutPolicies
 from statehtn.core.policy_disutility import DISUTILITIES, exact_grid
+from statehtn.core.policy_failure import check_failure_size
 from statehtn.core.policy_hopeless import hopeless
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_prices import PricedPolicies, SuccessPolicies, most_success
@@ -58,13 +59,15 @@ def search_policy(
 
     Raises:
         UnsupportedError: the objective or the problem has no policies; the message says why.
-        UsageError: the failure cost is out of its range.
+        UsageError: the failure cost is out of its range, or too large beside the costs.
         InputError: a cost has no finite price for this agent; the message names the action.
         LimitReached: a limit was reached before the search began.
     """
     check_that_it_has_policies(grounding, objective, failure_cost, adaptive)
     if not grounding.handle.solvable:
         return hopeless(objective, failure_cost)
+    if failure_cost is not None and not isinstance(objective, Success):
+        check_failure_size(grounding, objective, failure_cost)
     problem = PolicyProblem(grounding, heuristic, limits)
     run = _run_of(problem, objective, failure_cost, precision, progress, limits, value_of)
     outcome = run.outcome(limits)

@@ -46,9 +46,10 @@ class PolicyPlanner:
                 (of those the least expected cost until done, or until being done has become impossible).
             attitude: neutral, averse or seeking: with alpha a short form of an objective.
             alpha: how much an averse or a seeking agent cares about risk: positive, per unit of cost.
-            failure_cost: what a run pays that fails, on top of what it has spent, at least 0, in the domain's unit: the
-                agent may give up anywhere. `math.inf` is allowed for `deadline` and `quantile`: failed is late. None:
-                only policies count that are done with probability 1.
+            failure_cost: what a run pays that fails, on top of what it has spent, at least 0, in the domain's unit, and
+                at most 10^9 times the largest expected cost of an action: the agent may give up anywhere. `math.inf` is
+                allowed for `deadline` and `quantile`: failed is late. None: only policies count that are done with
+                probability 1.
             adaptive: find the best plan, too, which does not look at what was spent, and say what looking is worth; for
                 problems whose actions have one outcome each.
             precision: a policy counts as optimal where it is within this part of max(1, its value) of the best one.

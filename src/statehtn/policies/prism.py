@@ -81,9 +81,12 @@ class _Writer:
             costs.append(as_decimal(model.failure))
         self.per_unit = math.lcm(*(cost.denominator for cost in costs), 1)
         if max(costs, default=Fraction(0)) * self.per_unit > MOST_UNITS:
+            which = "the costs of this problem"
+            if model.failure is not None and costs[-1] == max(costs):
+                which += f" and the failure cost of {model.failure:g}"
             raise UnsupportedError(
-                f"the costs of this problem have no unit in which all of them are whole numbers below {MOST_UNITS}, "
-                f"which the PRISM language needs; round them"
+                f"{which} have no unit in which all of them are whole numbers below {MOST_UNITS}, which the PRISM "
+                "language needs; round them, or take a smaller one"
             )
         self.paying: dict[tuple[int, int], int] = {}
         """The states in which a cost is paid, by where they lead to and the cost."""
