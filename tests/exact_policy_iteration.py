@@ -26,6 +26,13 @@ EQUAL = Decimal("1e-35")  # decimals that differ by less, relatively, are rounde
 Number = TypeVar("Number", Fraction, Decimal)
 
 
+class InfiniteCircle(Exception):
+    """The nodes of a circle, as the policy goes through it, are worth infinitely much: its radius is 1 or more.
+
+    Of all policies the best one is never like that, since giving up is one of them; a policy that is given may be.
+    """
+
+
 @dataclass(frozen=True)
 class Choice:
     """A constant pair, and the successors with the weights of both parts of their values."""
@@ -152,7 +159,8 @@ def solved(constants: list[Number], rows: list[dict[int, Number]], unknowns: lis
     place = {unknown: number for number, unknown in enumerate(unknowns)}
     for number, unknown in enumerate(unknowns):
         own = 1 - rows[number].pop(unknown, type(constants[number])(0))
-        assert own > 0, "a policy that runs in a circle for ever"
+        if own <= 0:
+            raise InfiniteCircle
         constants[number] /= own
         rows[number] = {other: weight / own for other, weight in rows[number].items()}
         for other_number in range(number + 1, len(unknowns)):

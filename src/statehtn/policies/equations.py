@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
@@ -43,7 +44,7 @@ def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], c
         return dense_solution()
     try:
         from scipy.sparse import csr_matrix, identity
-        from scipy.sparse.linalg import spsolve
+        from scipy.sparse.linalg import MatrixRankWarning, spsolve
     except ImportError:
         if count <= MOST_DENSE:
             return dense_solution()
@@ -53,7 +54,10 @@ def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], c
         ) from None
     rows, columns, weights = zip(*matrix, strict=True)
     sparse = identity(count, format="csr") - csr_matrix((weights, (rows, columns)), shape=(count, count))
-    return [float(value) for value in spsolve(sparse.tocsc(), numpy.array(added))]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MatrixRankWarning)
+        found = spsolve(sparse.tocsc(), numpy.array(added))
+    return [float(value) for value in found] if numpy.isfinite(found).all() else [math.inf] * count
 
 
 def by_law(laws: Sequence[CostLaw], price: Callable[[CostLaw], float]) -> list[float]:

@@ -29,13 +29,9 @@ from statehtn.core.policy_chord import ExploredPolicies
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.progress import Progress, SearchProgress
 from statehtn.effort import SearchEffort
-from statehtn.errors import StateHtnError
 from statehtn.limits import ENDINGS, Limits, status_of
-from statehtn.model.cost.numerics.evar import least_bound
-from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
-from statehtn.policies.chain import Chain
-from statehtn.policies.total_cost import PolicyCost
+from statehtn.policies.evar_best import BestByEvar
 from statehtn.risk import Attitude, EntropicValueAtRisk, Exponential, Neutral
 from statehtn.sweeps.evar import Interval
 from statehtn.sweeps.minorants import minorant
@@ -45,6 +41,8 @@ LEAST_TOUCHING = 1 / 64
 """Of an interval's upper end, where a line touches that had better touch at 0."""
 NEARBY = (1.0, 1.0001, 1.01)
 """Times an x at which rounding hides whether anything is finite."""
+FAR = 2.0
+"""Times an x is where much may have been left alone that agents of this x need."""
 DOUBLINGS = 60
 Search = Callable[..., PolicyOutcome]
 
@@ -70,19 +68,14 @@ class EvarSearch:
         limits: Limits,
         progress: Callable[[SearchProgress], None] | None = None,
     ) -> None:
-        self.level = objective.level
         self.divergence = -math.log1p(-objective.level)
-        self.failure = failure
-        self.precision = precision
+        self.best = BestByEvar(objective.level, failure, precision)
         self._search = search
         self._limits = limits
         self._progress = progress
         self._started = time.monotonic()
         self.effort = SearchEffort()
         self.stopped: Status | None = None
-        self.best: PolicyOutcome | None = None
-        self.value = math.inf
-        self.best_x = 0.0
         self.mean = 0.0
         self._intervals: list[tuple[Interval, int, ExploredPolicies | None]] = []
         self._made = 0
@@ -93,18 +86,19 @@ class EvarSearch:
         Raises:
             InputError: the cost of every policy has an infinite value.
         """
-        neutral = self._run(Neutral())
+        neutral = self._searched(Neutral())
         if neutral.graph is None or neutral.lower is None:
             return neutral
         self.mean = neutral.lower
         try:
+            self.best.consider(neutral, self._limits)
             self._begin(neutral)
             self._go_on()
         except ENDINGS as ending:
             self.stopped = status_of(ending)
-        best, bound = self.best or neutral, min(self.bound, self.value)
-        is_best = self._is_proven(bound)
-        upper = self.value if math.isfinite(self.value) else None
+        best, bound = self.best.found or neutral, min(self.bound, self.best.value)
+        is_best = bound >= self.best.enough and self.best.found is not None
+        upper = self.best.value if math.isfinite(self.best.value) else None
         how = best.graph, self.effort, None, None, best.plan_of
         stopped = None if is_best else self.stopped
         return PolicyOutcome(Status.OPTIMAL if is_best else Status.SOLVED, stopped, bound, upper, *how)
@@ -114,21 +108,20 @@ class EvarSearch:
         """No policy has a lower value."""
         if self._made == 0:
             return self.mean
-        return self._intervals[0][0].bound if self._intervals else self.value
+        return self._intervals[0][0].bound if self._intervals else self.best.value
 
     def _begin(self, neutral: PolicyOutcome) -> None:
         """Find good policies, and the first interval."""
-        for doubling in range(DOUBLINGS if math.isinf(self.value) else 0):
-            self._run_at(max(self.mean, 1e-9) * 2.0**doubling)
-            if math.isfinite(self.value) or self.stopped is not None:
+        for doubling in range(DOUBLINGS):
+            if math.isfinite(self.best.value) or self.stopped is not None:
                 break
-        if math.isinf(self.value):
+            self._run_at(max(self.mean, 1e-9) * 2.0**doubling)
+        if math.isinf(self.best.value):
             if self.stopped is None:
-                assert neutral.graph is not None
-                least_bound(PolicyCost(Chain(neutral.graph.flat), self.failure), self.level)  # says what is infinite
+                self.best.say_what_is_infinite(neutral)
             return
         self._improve()
-        highest = (self.value - self.mean) / self.divergence
+        highest = (self.best.value - self.mean) / self.divergence
         if highest > 0:
             self._add(Interval.of(0.0, highest, self.mean, self.mean + self.divergence * highest), None)
         self._made += 1
@@ -136,24 +129,24 @@ class EvarSearch:
     def _improve(self) -> None:
         """Take the best policy for the agent to whom the best one known comes to its value; and again."""
         value = math.inf
-        while self.stopped is None and self.best_x > 0 and value - self.value > self.precision / 10 * abs(self.value):
-            value = self.value
-            self._run_at(self.best_x)
+        while self.stopped is None and self.best.x > 0 and self.best.value < value:
+            value = self.best.value - self.best.precision / 10 * abs(self.best.value)
+            self._run_at(self.best.x)
 
     def _go_on(self) -> None:
         """Bound all policies on the worst interval, until the bound has come to the best policy."""
         while self._intervals and self._made < MOST_INTERVALS and self.stopped is None:
             interval, _, explored = self._intervals[0]
-            if self._is_proven(interval.bound):
+            if interval.bound >= self.best.enough:
                 break
-            value = self.value
+            value = self.best.value
             parts = self._refined(interval, explored)
             if parts == [(interval, explored)]:  # there is nothing between its ends
                 break
             heapq.heappop(self._intervals)
             for part in parts:
                 self._add(*part)
-            if self.value < value:
+            if self.best.value < value:
                 self._improve()
 
     def _add(self, interval: Interval, explored: ExploredPolicies | None) -> None:
@@ -166,7 +159,7 @@ class EvarSearch:
         """Return what an interval becomes, each part with what was explored for its upper end or beyond."""
         if explored is not None:
             interval = self._bounded(interval, explored)
-        if not self._is_proven(interval.bound) and (explored is None or explored.x > interval.high):
+        if interval.bound < self.best.enough and self._needs_search(interval, explored):
             found = self._explored_at(interval.high)
             if found.status is Status.UNSOLVABLE:
                 return []
@@ -175,15 +168,26 @@ class EvarSearch:
                 explored = found.explored or explored
                 if self.stopped is None and found.explored is not None:
                     interval = self._bounded(interval, found.explored)
-        if self._is_proven(interval.bound) or self.stopped is not None:
+        if interval.bound >= self.best.enough or self.stopped is not None:
             return [(interval, explored)]
-        point = interval.weak_point(self.value, self._touching(interval))
+        point = interval.weak_point(self.best.value, self._touching(interval))
         if not interval.low < point < interval.high:
             return [(interval, explored)]
         return [(part, explored) for part in interval.split(point)]
 
+    def _needs_search(self, interval: Interval, explored: ExploredPolicies | None) -> bool:
+        """Tell whether a search at the upper end may tell more than what was explored beyond it.
+
+        Where the best policy known has its value in the interval, no other is better at that x, and a chord explores
+        what it needs.
+        """
+        if explored is None:
+            return True
+        is_far = explored.x > FAR * interval.high or not interval.low <= self.best.x <= interval.high
+        return is_far and explored.x > interval.high
+
     def _touching(self, interval: Interval) -> float:
-        return min(max(self.best_x, interval.low, LEAST_TOUCHING * interval.high), interval.high)
+        return min(max(self.best.x, interval.low, LEAST_TOUCHING * interval.high), interval.high)
 
     def _bounded(self, interval: Interval, explored: ExploredPolicies) -> Interval:
         """Bound all policies on an interval by a chord.
@@ -191,8 +195,7 @@ class EvarSearch:
         At the upper end no sum of steps is negative for lines that touch there.
         """
         low, high = interval.low, interval.high
-        wanted = self.value - self.precision * max(1.0, abs(self.value))
-        enough = wanted - self.divergence * low, wanted - self.divergence * high
+        enough = self.best.enough - self.divergence * low, self.best.enough - self.divergence * high
         for touching in (self._touching(interval), high):
             lines = partial(minorant, low=low, high=high, at=touching)
             chord = explored.chord(lines, low, high, touching, enough, self._limits)
@@ -208,31 +211,20 @@ class EvarSearch:
                 break
         return found
 
-    def _is_proven(self, bound: float) -> bool:
-        return self.value - bound <= self.precision * max(1.0, abs(self.value))
-
     def _run_at(self, x: float) -> PolicyOutcome:
-        return self._run(Exponential(Attitude.AVERSE, math.nextafter(1 / x, 0)))  # whose inverse is not below x
+        """Search for the agent of an x."""
+        found = self._searched(Exponential(Attitude.AVERSE, math.nextafter(1 / x, 0)))  # whose inverse is not below x
+        self.best.consider(found, self._limits)
+        return found
 
-    def _run(self, objective: Neutral | Exponential) -> PolicyOutcome:
-        """Search for one agent; its policy is valued by this objective."""
+    def _searched(self, objective: Neutral | Exponential) -> PolicyOutcome:
         found = self._search(objective, progress=None if self._progress is None else self._report)
         self.effort += found.effort
         self.stopped = self.stopped or found.stopped
-        if found.graph is not None and not self._is_known(found.graph.flat):
-            cost = PolicyCost(Chain(found.graph.flat), self.failure)
-            try:
-                value, x = least_bound(cost, self.level) if math.isfinite(cost.mean) else (math.inf, 0.0)
-            except StateHtnError:  # it is infinite, or cannot be computed
-                value, x = math.inf, 0.0
-            if value < self.value:
-                self.value, self.best_x, self.best = value, x, found
         return found
-
-    def _is_known(self, flat: FlatPolicy) -> bool:
-        return self.best is not None and self.best.graph is not None and self.best.graph.flat == flat
 
     def _report(self, progress: SearchProgress) -> None:
         assert self._progress is not None
-        effort, best = self.effort + progress.effort, self.value if math.isfinite(self.value) else None
+        effort = self.effort + progress.effort
+        best = self.best.value if math.isfinite(self.best.value) else None
         self._progress(Progress(time.monotonic() - self._started, effort, self.bound, best))

@@ -16,6 +16,7 @@ GOLDEN = (3 - math.sqrt(5)) / 2
 ACCURACY = 3e-8  # of the logarithm of the minimiser; what the minimum loses is its square, relative to the range
 SMALLEST = 1e-18  # a minimiser that is smaller by this factor than the largest one changes no digit of the minimum
 DOUBLINGS = 200
+NEARBY = math.log(4)  # so far around a point the logarithm of the minimiser is looked for
 
 
 def entropic_value_at_risk(law: CostLaw, level: float) -> float:
@@ -32,7 +33,7 @@ def entropic_value_at_risk(law: CostLaw, level: float) -> float:
     return least_bound(law, level)[0]
 
 
-def least_bound(law: CostLaw, level: float) -> tuple[float, float]:
+def least_bound(law: CostLaw, level: float, near: float = 0.0, accuracy: float = ACCURACY) -> tuple[float, float]:
     """Return the same, and the `x = 1 / a` at which it is had; 0 where it is the largest cost.
 
     In `x` it is convex: the perspective of the logarithm of the moment generating function, which is convex, plus a
@@ -40,6 +41,12 @@ def least_bound(law: CostLaw, level: float) -> tuple[float, float]:
     Brent's method for `ln x` finds it.
 
     Source: Brent, *Algorithms for minimization without derivatives*, 1973, chapter 5.
+
+    Args:
+        law: as above.
+        level: as above.
+        near: where to look first; 0 for nowhere.
+        accuracy: of `ln x`.
     """
     least, most, divergence = law.least, law.most, -math.log1p(-level)
     if least == most:
@@ -53,11 +60,14 @@ def least_bound(law: CostLaw, level: float) -> tuple[float, float]:
             return math.inf
 
     mean = law.mean
-    highest = (most if math.isfinite(most) else _some_bound(law, bound)) - mean
-    if highest <= 0:  # the range is a rounding error
-        return most, 0.0
-    high = math.log(highest / divergence)
-    value, at = _least(bound, high + math.log(SMALLEST), high)
+    found = None if near <= 0 else _least_near(bound, math.log(near), accuracy)
+    if found is None:
+        highest = (most if math.isfinite(most) else _some_bound(law, bound)) - mean
+        if highest <= 0:  # the range is a rounding error
+            return most, 0.0
+        high = math.log(highest / divergence)
+        found = _least(bound, high + math.log(SMALLEST), high, accuracy)
+    value, at = found
     return (most, 0.0) if most <= value else (max(value, mean), math.exp(at))
 
 
@@ -73,7 +83,13 @@ def _some_bound(law: CostLaw, bound: Callable[[float], float]) -> float:
     )
 
 
-def _least(function: Callable[[float], float], low: float, high: float) -> tuple[float, float]:
+def _least_near(function: Callable[[float], float], near: float, accuracy: float) -> tuple[float, float] | None:
+    """Return what `_least` does near a point; None where it is not to be found there."""
+    value, at = _least(function, near - NEARBY, near + NEARBY, accuracy)
+    return (value, at) if math.isfinite(value) and abs(at - near) < NEARBY - 2 * accuracy else None
+
+
+def _least(function: Callable[[float], float], low: float, high: float, accuracy: float) -> tuple[float, float]:
     """Return the least value found of a function that falls, perhaps from infinity, and then rises; and where.
 
     The next point is where a parabola through the three best ones is least; or, where that is no progress, the golden
@@ -82,17 +98,17 @@ def _least(function: Callable[[float], float], low: float, high: float) -> tuple
     best = second = third = low + GOLDEN * (high - low)
     at_best = at_second = at_third = function(best)
     step = before = high - low
-    while max(best - low, high - best) > ACCURACY:
+    while max(best - low, high - best) > accuracy:
         before, last = step, before
         middle = (low + high) / 2
         step = GOLDEN * ((low if best > middle else high) - best)
         if math.isfinite(at_third) and best != second != third:
             to_vertex = _to_vertex(best - second, at_best - at_second, best - third, at_best - at_third)
             if abs(to_vertex) < abs(last) / 2 and low < best + to_vertex < high:
-                is_near_end = min(best + to_vertex - low, high - best - to_vertex) < ACCURACY
-                step = math.copysign(ACCURACY / 3, middle - best) if is_near_end else to_vertex
-        if abs(step) < ACCURACY / 3:
-            step = math.copysign(ACCURACY / 3, step)
+                is_near_end = min(best + to_vertex - low, high - best - to_vertex) < accuracy
+                step = math.copysign(accuracy / 3, middle - best) if is_near_end else to_vertex
+        if abs(step) < accuracy / 3:
+            step = math.copysign(accuracy / 3, step)
         point = best + step
         value = function(point)
         if value <= at_best:
