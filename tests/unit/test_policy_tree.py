@@ -36,6 +36,25 @@ def test_what_leads_into_a_loop_of_its_own_kind_is_told_once() -> None:
     ]
 
 
+def test_what_is_left_is_told_last_and_alone() -> None:
+    """Nothing changes, or the cup breaks: both are failures, and need not be told from each other."""
+    ways = (
+        Branch(0.2, certain(1), 2),
+        Branch(0.7, certain(1), 1, frozenset({HELD})),
+        Branch(0.1, certain(1), 2, frozenset({("broken", "cup")})),
+    )
+    nodes = [
+        PolicyNode(frozenset(), (TRY,), (), Decision(0, TRY, ways)),
+        PolicyNode(frozenset({HELD}), (), (), None, End.DONE),
+        PolicyNode(frozenset(), (TRY,), (), None, End.FAILED),
+    ]
+    assert policy_text(PolicyGraph.of(nodes)).splitlines() == [
+        "(try cup)  cost 1",
+        "  if (held cup), 0.7: done",
+        "  otherwise, 0.3: failed: nothing is left to try",
+    ]
+
+
 def test_what_fails_is_said() -> None:
     assert policy_text(tries(2)).splitlines() == [
         "(try cup)  cost 1",

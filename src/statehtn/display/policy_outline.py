@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from statehtn.counted import letters
 from statehtn.display.policy_classes import Way, classes_of
-from statehtn.display.policy_words import Changes, budget, conditions, cost_text
+from statehtn.display.policy_words import OTHERWISE, Changes, budget, conditions, cost_text
 from statehtn.model.plan import Step
 from statehtn.model.policy_graph import End, PolicyGraph
 
@@ -164,7 +164,7 @@ def _are_apart(groups: Iterable[Sequence[float]]) -> bool:
 
 
 def _merged(choices: Sequence[Choice]) -> tuple[Choice, ...]:
-    """Return choices that lead to one place as one, in the order of the places' first choices."""
+    """Return choices that lead to one place as one, in the order of their first choices; what is left comes last."""
     groups: dict[int, list[Choice]] = {}
     for choice in choices:
         groups.setdefault(choice.place, []).append(choice)
@@ -174,5 +174,7 @@ def _merged(choices: Sequence[Choice]) -> tuple[Choice, ...]:
         probability = math.fsum(known) if len(known) == len(some) else None
         others = [choice.probability for choice in choices if choice.place != place]
         rest = math.fsum(p for p in others if p is not None) if None not in others else None
-        found.append(Choice(" or ".join(dict.fromkeys(c.condition for c in some)), probability, place, rest))
-    return tuple(found)
+        conditions_of = dict.fromkeys(choice.condition for choice in some)
+        condition = OTHERWISE if OTHERWISE in conditions_of else " or ".join(conditions_of)
+        found.append(Choice(condition, probability, place, rest))
+    return tuple(sorted(found, key=lambda choice: choice.condition == OTHERWISE))

@@ -8,6 +8,7 @@ from typing import Any
 
 from statehtn.attitudes import Difference, differences_between
 from statehtn.effort import Meter
+from statehtn.errors import UnsupportedError
 from statehtn.found_plan import FoundPlan, priced
 from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model import Fact, Plan, Problem, Step
@@ -85,13 +86,19 @@ def why_not(problem: Problem, plan: Plan | Sequence[str | Step], settings: Setti
 
     Raises:
         InputError: a cost of the plan is not defined, or an action is none.
+        UnsupportedError: actions have several outcomes, and the objective is not `success-utility`.
     """
     objective, session = settings.objective, Session(problem)
     by = objective if isinstance(objective, SuccessUtility) else None
+    if problem.domain.has_outcomes and by is None:
+        raise UnsupportedError(
+            "a plan of actions with several outcomes counts on one of each, and is valued by 'success-utility alpha=A' "
+            f"alone, not by '{objective}'; what to do whatever comes, a policy can say: 'statehtn policy'"
+        )
     seen: frozenset[Fact] | None = None
     try:
-        if problem.domain.has_outcomes:  # refused by other objectives
-            seen = session.ground(limits, Meter(), by is not None).seen_facts()
+        if problem.domain.has_outcomes:
+            seen = session.ground(limits, Meter(), counts_on_outcomes=True).seen_facts()
         validation = validate_run(problem, plan, limits, by, seen)
     except ENDINGS as ending:
         return WhyNot(objective, (), stopped=status_of(ending))
