@@ -114,6 +114,28 @@ def test_by_success_there_is_a_policy() -> None:
     )
 
 
+def test_not_even_the_best_outcomes_help() -> None:
+    """Whoever arrives has no key any more; and an outcome of probability 0 is none."""
+    lost = SLIPPERY.replace("(at ?p - place)", "(at ?p - place) (key)").replace(
+        "(and (not (at ?a)) (at ?b))", "(and (not (at ?a)) (not (key)) (at ?b))"
+    )
+    needed = lost.replace(":precondition (at ?p) :ordered", ":precondition (and (at ?p) (key)) :ordered")
+    problem = SLIPPERY_ROADS.replace("(:init", "(:init (key)")
+    never = (
+        DEAD_ENDS.replace("0.5 (and", "0 (and")
+        .replace("0.9 (and", "0 (and")
+        .replace("0.4 ()", "0.9 ()")
+        .replace("0.1 (not (at ?a))))))", "1 ()))))")
+    )
+    for domain, text in ((needed, "needs (key), but step"), (never, "There is no plan, though each task")):
+        for objective in (None, "success"):
+            answer = statehtn.why(read(problem if domain is needed else SLIPPERY_ROADS, domain), objective=objective)
+            assert isinstance(answer, statehtn.NoPlan)
+            assert answer.status is Status.UNSOLVABLE
+            assert answer.exploration is not None
+            assert text in str(answer)
+
+
 @pytest.mark.parametrize(
     ("level", "failure_cost", "words"),
     [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 
 from statehtn.core.grounding import PLAIN, ground
@@ -82,10 +82,10 @@ def explore(problem: Problem, limits: Limits = Limits()) -> Exploration:
     """Look at nodes, those with few open tasks first, and return where nothing goes on.
 
     Args:
-        problem: one that has no plan.
+        problem: one that has no plan, or no policy that is ever done.
         limits: where they are reached, what has been found so far is returned.
     """
-    model = ground(problem, limits, PLAIN).to_model()
+    model = _with_the_best_outcomes(ground(problem, limits, PLAIN).to_model())
     number = count()
     first = initial_node(model)
     queue = [(0, next(number), first)]
@@ -116,6 +116,18 @@ def explore(problem: Problem, limits: Limits = Limits()) -> Exploration:
     deepest = sorted(found.values(), key=lambda deadlock: -len(deadlock.steps))
     shown = (deadlock for deadlock in deepest[:MOST_SHOWN] if len(deadlock.steps) >= most - NEARLY)
     return Exploration(tuple(shown), nodes, not queue and stopped is None, stopped)
+
+
+def _with_the_best_outcomes(model: GroundProblem) -> GroundProblem:
+    """Return the problem in which the agent chooses what comes of actions, of all that may come."""
+    if not model.chance_tasks:
+        return model
+    methods = (
+        method
+        for method in model.methods
+        if method.task not in model.chance_tasks or all(model.actions[each].probability for each in method.subtasks)
+    )
+    return replace(model, methods=tuple(methods), chance_tasks=frozenset())
 
 
 def _deadlocks(node: SearchNode, model: GroundProblem) -> Iterator[Deadlock]:
