@@ -147,6 +147,14 @@ def policies(session: nox.Session) -> None:
     session.run("pytest", *thorough, "tests/differential/test_policies.py", *session.posargs)
 
 
+@nox.session
+def storm(session: nox.Session) -> None:
+    """Compare models and policies of 200 random problems, at every budget, with the model checker Storm (an hour)."""
+    session.install(".[check]", *nox.project.dependency_groups(PROJECT, "test"))
+    thorough = ("--hypothesis-profile", "objectives", "-rP")
+    session.run("pytest", *thorough, "tests/differential/test_storm.py", *session.posargs)
+
+
 @nox.session(venv_backend="virtualenv")
 def mutation(session: nox.Session) -> None:
     """Break the conditions on which optimality hangs, one at a time, and see whether the tests notice (half an hour).

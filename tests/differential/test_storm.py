@@ -26,12 +26,14 @@ from tests.explicit_memory import INFINITE, SLACK, best_policy_with_memory, step
 from tests.explicit_policies import best_policy
 from tests.random_graphs import decision_graphs
 from tests.random_outcomes import chance_problems, wide_problems
-from tests.shares import share_of_examples
+from tests.shares import is_long_run, share_of_examples
 
 pytest.importorskip("stormpy", reason="Storm is not installed (pip install 'statehtn[check]')")
 from tests.storm import StormModel
 
-MOST_UNITS = 12
+MOST_UNITS = 24 if is_long_run() else 12
+EVERY = 1 if is_long_run() else 5
+"""Each so many units a budget is tried; in long runs every one."""
 LIMITS = Limits(steps=500_000)
 PRECISION = 1e-9
 CLOSE = {"rel": 1e-6, "abs": 1e-7}
@@ -65,7 +67,7 @@ def must_agree(graph: ExplicitGraph, model: StormModel, unit: Fraction) -> None:
     assert float(model.success_probability) == pytest.approx(float(success), **EQUAL)
     mean = best_policy(graph, "neutral").value
     assert float(model.expected_cost * unit) == pytest.approx(math.inf if mean is None else float(mean), **EQUAL)
-    for units in range(1, MOST_UNITS, 5):
+    for units in range(0 if EVERY == 1 else 1, MOST_UNITS, EVERY):
         late = best_policy_with_memory(graph, f"deadline {float(units * unit)}", INFINITE).value
         assert float(model.within(units)) == pytest.approx(float(1 - late), **EQUAL)
     for level in map(Fraction, LEVELS):
@@ -87,7 +89,7 @@ def test_exported_random_problems(problem: Problem) -> None:
     graph = explicit_graph(problem)
     model, unit = exported(problem)
     must_agree(graph, model, unit)
-    must_agree_with_planner(problem, model, unit, range(0, MOST_UNITS, 3))
+    must_agree_with_planner(problem, model, unit, range(0, MOST_UNITS, min(EVERY, 3)))
 
 
 @pytest.mark.parametrize("name", EXPORTED)

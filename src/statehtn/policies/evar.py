@@ -79,6 +79,7 @@ class EvarSearch:
         self.mean = 0.0
         self._intervals: list[tuple[Interval, int, ExploredPolicies | None]] = []
         self._made = 0
+        self._infinite = 0.0  # no policy is finite up to this x
 
     def outcome(self) -> PolicyOutcome:
         """Search, and return the best policy with what is proven of all.
@@ -157,11 +158,14 @@ class EvarSearch:
         self, interval: Interval, explored: ExploredPolicies | None
     ) -> list[tuple[Interval, ExploredPolicies | None]]:
         """Return what an interval becomes, each part with what was explored for its upper end or beyond."""
+        if interval.high <= self._infinite:
+            return []
         if explored is not None:
             interval = self._bounded(interval, explored)
         if interval.bound < self.best.enough and self._needs_search(interval, explored):
             found = self._explored_at(interval.high)
             if found.status is Status.UNSOLVABLE:
+                self._infinite = max(self._infinite, interval.high)
                 return []
             if found.lower is not None and found.status is not Status.GAVE_UP:
                 interval = interval.raised(*(found.lower + self.divergence * x for x in (interval.low, interval.high)))
@@ -196,7 +200,7 @@ class EvarSearch:
         """
         low, high = interval.low, interval.high
         enough = self.best.enough - self.divergence * low, self.best.enough - self.divergence * high
-        for touching in (self._touching(interval), high):
+        for touching in dict.fromkeys((self._touching(interval), high)):
             lines = partial(minorant, low=low, high=high, at=touching)
             chord = explored.chord(lines, low, high, touching, enough, self._limits)
             if chord is not None:

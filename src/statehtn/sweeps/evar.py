@@ -38,6 +38,7 @@ from statehtn.sweeps.prices import Minorant
 from statehtn.sweeps.runs import Runs
 
 LEAST_SHARE = 0.1  # of an interval, that a part of it has
+WORTHWHILE = 0.25  # of an interval, that is bounded well enough and parted from the rest
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -84,11 +85,12 @@ class Interval:
             touching: where the lines touched.
         """
         width = self.high - self.low
-        if max(self.at_low, self.at_high) > value:  # the other end is good enough
-            share = (value - self.at_low) / (self.at_high - self.at_low)
-            point = self.low + share * width
+        worse, other = (self.low, self.high) if self.at_low <= self.at_high else (self.high, self.low)
+        rise = abs(self.at_high - self.at_low)
+        good = (max(self.at_low, self.at_high) - value) / rise if rise > 0 else 0.0  # share that is good enough
+        if good >= WORTHWHILE:
+            point = other + good * (worse - other)
         else:  # halfway between the worse end and where the lines touched, since they will touch there again
-            worse, other = (self.low, self.high) if self.at_low <= self.at_high else (self.high, self.low)
             point = (worse + (other if touching == worse else touching)) / 2
         return min(max(point, self.low + LEAST_SHARE * width), self.high - LEAST_SHARE * width)
 
