@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uint32_t kUnvisited = static_cast<std::uint32_t>(-1);
 
+}  // namespace
+
 void add_reads(const GroundProblem& problem, ActionId action, std::span<std::uint64_t> mask) {
     const auto add = [mask](std::span<const FactId> facts) {
         for (const FactId fact : facts) {
@@ -32,8 +34,6 @@ void add_reads(const GroundProblem& problem, ActionId action, std::span<std::uin
         }
     }
 }
-
-}  // namespace
 
 TaskReads::TaskReads(const GroundProblem& problem, Limits& limits)
     : words_(words_for(problem.fact_count())), component_(problem.task_count(), kUnvisited) {

@@ -4,6 +4,7 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,7 +24,6 @@
 #include "relax/policies/policy_chord.hpp"
 #include "relax/policies/policy_trace.hpp"
 #include "relax/policies/spending_source.hpp"
-#include "relax/progression/relevant_facts.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -200,15 +200,13 @@ public:
         return *trace_;
     }
     std::vector<relax::FactId> facts(std::uint32_t node) {
-        return facts_in(progression_->states()[source_->nodes().state(place(node).pair)]);
+        relax::StateBits facts = facts_that_matter(node);
+        const auto state = progression_->states()[source_->nodes().state(place(node).pair)];
+        std::ranges::transform(facts, state, facts.begin(), std::bit_and());
+        return facts_in(facts);
     }
     // Those that matter from there on, true or false.
-    std::vector<relax::FactId> known(std::uint32_t node) {
-        if (!relevant_) {
-            relevant_.emplace(priced_.problem, limits_);
-        }
-        return facts_in(relevant_->of(progression_->networks(), source_->nodes().network(place(node).pair)));
-    }
+    std::vector<relax::FactId> known(std::uint32_t node) { return facts_in(facts_that_matter(node)); }
     std::vector<relax::TaskId> tasks(std::uint32_t node) { return ordered(node).tasks; }
     OrderedPairs ordering(std::uint32_t node) { return ordered_pairs(ordered(node)); }
     // None where it is used up.
@@ -245,6 +243,10 @@ public:
 
 private:
     const relax::NetworkNodes::Node& place(std::uint32_t node) const { return trace().nodes.at(node); }
+    relax::StateBits facts_that_matter(std::uint32_t node) {
+        const auto pair = place(node).pair;
+        return progression_->facts_that_matter(source_->nodes().state(pair), source_->nodes().network(pair));
+    }
     const relax::OrderedTasks& ordered(std::uint32_t node) {
         return progression_->ordered_tasks(source_->nodes().network(place(node).pair));
     }
@@ -262,7 +264,6 @@ private:
     relax::CutSource* cut_ = nullptr;
     std::optional<relax::PolicySearch> search_;
     std::optional<relax::PolicyTrace> trace_;
-    std::optional<relax::RelevantFacts> relevant_;
 };
 
 }  // namespace

@@ -31,17 +31,19 @@ class Space {
 public:
     Space(const relax::AnalysedProblem& problem, const std::vector<bool>& free_actions,
           const std::vector<bool>& seen_actions, const std::vector<bool>& seen_parts, bool skip_dead_methods,
-          bool stubborn_sets, bool forget_facts, bool lone_members, bool only_done_runs_pay, std::size_t most_nodes,
-          std::optional<double> seconds, std::optional<std::size_t> memory_bytes, std::optional<std::uint64_t> steps)
+          bool stubborn_sets, bool forget_facts, bool forget_unreachable, bool lone_members, bool only_done_runs_pay,
+          std::size_t most_nodes, std::optional<double> seconds, std::optional<std::size_t> memory_bytes,
+          std::optional<std::uint64_t> steps)
         : problem_(problem), limits_(python_limits(seconds, memory_bytes, steps)) {
         const relax::SeenCosts seen{seen_actions, seen_parts};
         check_entries(problem, free_actions, seen);
         const nb::gil_scoped_release no_gil;
         stop_ = relax::run_within_limits([&] {
-            progression_.emplace(problem, free_actions, seen,
-                                 relax::PolicyOptions{{skip_dead_methods, stubborn_sets, forget_facts, lone_members},
-                                                      only_done_runs_pay},
-                                 limits_);
+            progression_.emplace(
+                problem, free_actions, seen,
+                relax::PolicyOptions{{skip_dead_methods, stubborn_sets, forget_facts, forget_unreachable, lone_members},
+                                     only_done_runs_pay},
+                limits_);
             space_.emplace(*progression_, most_nodes, limits_);
             return space_->stop();
         });
@@ -106,13 +108,13 @@ private:
 void bind_policy_space(nb::module_& module) {
     nb::class_<Space>(module, "PolicySpace")
         .def(nb::init<const relax::AnalysedProblem&, const std::vector<bool>&, const std::vector<bool>&,
-                      const std::vector<bool>&, bool, bool, bool, bool, bool, std::size_t, std::optional<double>,
+                      const std::vector<bool>&, bool, bool, bool, bool, bool, bool, std::size_t, std::optional<double>,
                       std::optional<std::size_t>, std::optional<std::uint64_t>>(),
              "problem"_a, "free_actions"_a, "seen_actions"_a = std::vector<bool>{},
              "seen_parts"_a = std::vector<bool>{}, "skip_dead_methods"_a = true, "stubborn_sets"_a = true,
-             "forget_facts"_a = true, "lone_members"_a = true, "only_done_runs_pay"_a = false,
-             "most_nodes"_a = std::size_t{1} << 20, "seconds"_a = nb::none(), "memory_bytes"_a = nb::none(),
-             "steps"_a = nb::none(), nb::keep_alive<1, 2>())
+             "forget_facts"_a = true, "forget_unreachable"_a = true, "lone_members"_a = true,
+             "only_done_runs_pay"_a = false, "most_nodes"_a = std::size_t{1} << 20, "seconds"_a = nb::none(),
+             "memory_bytes"_a = nb::none(), "steps"_a = nb::none(), nb::keep_alive<1, 2>())
         .def_prop_ro("stop", &Space::stop)
         .def_prop_ro("node_count", &Space::node_count)
         .def_prop_ro("expanded_count", &Space::expanded_count)

@@ -49,6 +49,7 @@ ProgressionOptions progression_options(const PolicySwitches& switches) {
     options.skip_dead_methods = switches.skip_dead_methods;
     options.stubborn_sets = false;  // there is one here
     options.forget_facts = switches.forget_facts;
+    options.forget_unreachable = switches.forget_unreachable;
     return options;
 }
 

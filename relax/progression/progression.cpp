@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -24,6 +25,9 @@ Progression::Progression(const AnalysedProblem& problem, const std::vector<bool>
     }
     if (options.forget_facts) {
         relevant_facts_.emplace(problem, limits);
+    }
+    if (options.forget_unreachable) {
+        reduced_states_.emplace(problem, limits);
     }
     if (options.skip_dead_methods) {
         first_actions_.emplace(problem, options.in_sequence, limits);
@@ -219,7 +223,25 @@ StateId Progression::keep_relevant(NetworkId network) {
             next_[word] &= relevant[word];
         }
     }
-    return states_.intern(next_);
+    const StateId state = states_.intern(next_);
+    return reduced_states_ ? reduced_states_->of(state, states_) : state;
+}
+
+StateBits Progression::facts_that_matter(StateId state, NetworkId network) {
+    StateBits facts(next_.size(), 0);
+    for (const FactId fact : problem_.facts()) {
+        set_bit(facts, fact);
+    }
+    const auto keep = [&facts](std::span<const std::uint64_t> others) {
+        std::ranges::transform(facts, others, facts.begin(), std::bit_and());
+    };
+    if (relevant_facts_) {
+        keep(relevant_facts_->of(*networks_, network));
+    }
+    if (reduced_states_) {
+        keep(reduced_states_->facts_that_matter(states_[state]));
+    }
+    return facts;
 }
 
 }  // namespace relax

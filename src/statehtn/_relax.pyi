@@ -788,6 +788,7 @@ class PolicySpace:
         skip_dead_methods: bool = True,
         stubborn_sets: bool = True,
         forget_facts: bool = True,
+        forget_unreachable: bool = True,
         lone_members: bool = True,
         only_done_runs_pay: bool = False,
         most_nodes: int = 1048576,

@@ -67,6 +67,13 @@ MUTATIONS = [
         "",
     ),
     Mutation(
+        "within reach: facts that actions make are out of it",
+        "relax/progression/reachable_reads.cpp",
+        "for (const FactId fact : problem_.effect_adds[effect]) {",
+        "for (const FactId fact : problem_.effect_conditions[effect]) {",
+        (POLICY_PROGRESSION,),
+    ),
+    Mutation(
         "forgotten facts: conditions of costs are not read",
         "relax/analysis/task_reads.cpp",
         "            add(problem.cost_conditions[alternative]);\n",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 import statehtn
 
 DOMAIN = """(define (domain d)
@@ -50,3 +52,51 @@ def test_a_node_is_found_by_its_network() -> None:
     assert policy is not None
     for node in policy.graph.nodes:
         assert policy.decide(node.facts, policy.network_of(node)) == (node.decision or node.end)
+
+
+TIRES = """(define (domain tires) (:requirements :typing :probabilistic-effects)
+  (:types place) (:predicates (at ?p - place) (spare ?p - place) (road ?p ?q - place) (flat))
+  (:task go :parameters (?goal - place))
+  (:method arrived :parameters (?goal - place) :task (go ?goal) :precondition (at ?goal) :subtasks ())
+  (:method drive :parameters (?goal ?p ?q - place) :task (go ?goal) :precondition (and (at ?p) (not (at ?goal)))
+    :ordered-subtasks (and (move ?p ?q) (go ?goal)))
+  (:method repair :parameters (?goal ?p - place) :task (go ?goal) :precondition (and (at ?p) (flat))
+    :ordered-subtasks (and (change ?p) (go ?goal)))
+  (:action move :parameters (?p ?q - place) :precondition (and (at ?p) (road ?p ?q) (not (flat)))
+    :effect (and (at ?q) (not (at ?p)) (increase (total-cost) 1) (probabilistic 0.5 (flat) 0.5 ())))
+  (:action change :parameters (?p - place) :precondition (and (at ?p) (spare ?p) (flat))
+    :effect (and (not (spare ?p)) (not (flat)) (increase (total-cost) 1))))"""
+
+
+def tires(rows: int) -> str:
+    """Return a triangle of places, roads that lead on alone, and spares at its sides and inside.
+
+    (Little and Thiebaux, Probabilistic planning vs replanning, 2007: the short way, along the bottom, has no spares.)
+    """
+    size = 2 * rows + 1
+    places = {(row, column) for row in range(1, size + 1) for column in range(1, size + 2 - row)}
+    roads = [(p, (p[0], p[1] + 1)) for p in places if p[0] % 2] + [(p, (p[0] + 1, p[1])) for p in places]
+    roads += [(p, (p[0] - 1, p[1] + 1)) for p in places]
+    spares = [p for p in places if p[0] % 2 == 0 or (p[0] > 1 and p[1] in {1, size + 1 - p[0]})]
+    name = "l{0[0]}-{0[1]}".format
+    facts = [f"(road {name(p)} {name(q)})" for p, q in sorted(roads) if q in places]
+    facts += [f"(spare {name(p)})" for p in sorted(spares)]
+    return f"""(define (problem p) (:domain tires) (:objects {" ".join(map(name, sorted(places)))} - place)
+      (:htn :ordered-subtasks (and (go {name((1, size))}))) (:init (at l1-1) {" ".join(facts)}))"""
+
+
+def test_what_is_out_of_reach_is_forgotten() -> None:
+    """Spares of places that lie behind do not tell states apart: else there were 2 to the power of their number."""
+    found = statehtn.policy(statehtn.read_hddl_text(TIRES, tires(5)))
+    assert found.status is statehtn.Status.OPTIMAL
+    assert found.value == pytest.approx(29.5)
+    assert 0 < (found.statistics.expanded or 0) < 5_000
+    assert found.policy is not None
+    for node in found.policy.graph.nodes:
+        assert found.policy.decide(node.facts, found.policy.network_of(node)) == (node.decision or node.end)
+
+
+def test_decisions_are_right_in_states_with_facts_that_are_forgotten() -> None:
+    found = statehtn.policy(statehtn.read_hddl_text(TIRES, tires(2)))
+    assert found.value == pytest.approx(11.5)
+    assert str(found.validated).startswith("every decision, in")

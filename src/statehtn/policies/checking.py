@@ -133,7 +133,8 @@ def _matched(
     """Return which outcomes are which branches: those that agree in all facts that matter after them.
 
     Outcomes may differ in facts that no longer matter, and be one branch; with an amount spent, one outcome may be
-    several branches.
+    several branches. Which facts matter may depend on the outcome: of branches whose facts it has, an outcome is the
+    one of which the most is known, since fewer facts matter where less is within reach.
     """
     nodes = policy.graph.nodes
     by_facts: dict[tuple[State, State], tuple[list[StepOutcome], list[Branch]]] = {}
@@ -143,10 +144,12 @@ def _matched(
         by_facts.setdefault((known, node.facts & known), ([], []))[1].append(branch)
     for outcome in outcomes:
         after = outcome.after(facts)
-        fitting = [pair for (known, expected), pair in by_facts.items() if after & known == expected]
-        if len(fitting) != 1:
-            raise _wrong(f"{decision.action} has {len(fitting) or 'no'} branches for one of its outcomes")
-        fitting[0][0].append(outcome)
+        fitting = [(len(known), pair) for (known, expected), pair in by_facts.items() if after & known == expected]
+        most = max((count for count, _ in fitting), default=0)
+        best = [pair for count, pair in fitting if count == most]
+        if len(best) != 1:
+            raise _wrong(f"{decision.action} has {len(best) or 'no'} branches for one of its outcomes")
+        best[0][0].append(outcome)
     return list(by_facts.values())
 
 

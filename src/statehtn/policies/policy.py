@@ -104,6 +104,9 @@ class Policy:
         ]
         if not found:
             raise UsageError("no run of this policy comes to this state with this network; plan from there anew")
+        # What a node forgets is out of its reach; where more is known, more may be within reach.
+        most = max(len(node.known or ()) for node in found)
+        found = [node for node in found if len(node.known or ()) == most]
         node = _with_left(found, self.start.left, budget)
         if node.decision is not None:
             return node.decision

@@ -11,8 +11,12 @@
 
 namespace relax {
 
-// Which facts a task's actions read, whichever of its decompositions is chosen: as a precondition of either sign or as
-// a condition of an effect or of a part of the cost. The same for all tasks that lead to one another.
+// Add the facts that an action reads, as a precondition of either sign or as a condition of an effect or of a part of
+// the cost, to bits by FactId.
+void add_reads(const GroundProblem& problem, ActionId action, std::span<std::uint64_t> mask);
+
+// Which facts a task's actions read, whichever of its decompositions is chosen. The same for all tasks that lead to one
+// another.
 class TaskReads {
 public:
     TaskReads(const GroundProblem& problem, Limits& limits);  // throws Stopped

@@ -42,7 +42,8 @@ struct PolicySwitches {
     bool skip_dead_methods = true;  // as in ProgressionSwitches, all of them
     bool stubborn_sets = true;
     bool forget_facts = true;
-    bool lone_members = true;  // rule (3) below, with stubborn sets
+    bool forget_unreachable = true;  // states keep only the facts that actions read which are still within reach
+    bool lone_members = true;        // rule (3) below, with stubborn sets
 };
 
 struct PolicyOptions : PolicySwitches {
@@ -116,6 +117,9 @@ public:
 
     // As of Progression.
     NodeView view(StateId state, NetworkId network) { return progression_.view(state, network); }
+    StateBits facts_that_matter(StateId state, NetworkId network) {
+        return progression_.facts_that_matter(state, network);
+    }
     const OrderedTasks& ordered_tasks(NetworkId network) { return progression_.ordered_tasks(network); }
     const StateRegistry& states() const { return progression_.states(); }
     TaskNetworks& networks() { return progression_.networks(); }

@@ -16,6 +16,7 @@
 #include "relax/problem/state.hpp"
 #include "relax/progression/branching.hpp"
 #include "relax/progression/first_actions.hpp"
+#include "relax/progression/reachable_reads.hpp"
 #include "relax/progression/relevant_facts.hpp"
 #include "relax/progression/stubborn_set.hpp"
 
@@ -42,9 +43,10 @@ struct ProgressionSwitches {
 };
 
 struct ProgressionOptions : ProgressionSwitches {
-    bool use_macros = false;   // actions in a row count as one (TaskNetworks::form)
-    bool when_due = false;     // methods that begin with an action are not chosen until it can be executed
-    bool in_sequence = false;  // tasks without an order come in that of the domain: some plans are left out
+    bool use_macros = false;          // actions in a row count as one (TaskNetworks::form)
+    bool when_due = false;            // methods that begin with an action are not chosen until it can be executed
+    bool in_sequence = false;         // tasks without an order come in that of the domain: some plans are left out
+    bool forget_unreachable = false;  // states keep only the facts that actions read which are still within reach
 };
 
 // Progression over states and task networks; knows nothing of search algorithms, nor of prices.
@@ -83,6 +85,8 @@ public:
     bool is_executed_at_once(TaskId task) const { return problem_.is_primitive(task) && is_executed_at_once_[task]; }
     // Append the methods by which a compound task may be decomposed; where it comes next, those that are not dead.
     void add_methods(TaskId task, bool comes_next, StateId state, std::vector<MethodId>& methods) const;
+    // The facts that matter to a node, true or false, as bits by FactId.
+    StateBits facts_that_matter(StateId state, NetworkId network);
     // What heuristics see of a node but for its bound; valid until the next call.
     NodeView view(StateId state, NetworkId network);
 
@@ -122,6 +126,7 @@ private:
     std::optional<FirstActions> first_actions_;  // none if dead methods are not to be skipped
     std::optional<StubbornSet> stubborn_set_;
     std::optional<RelevantFacts> relevant_facts_;
+    std::optional<ReducedStates> reduced_states_;
     OrderedTasks ordered_tasks_;
     std::vector<Occurrence> unconstrained_;
     // Of the node looked at: the task to decompose, if there is one; the methods or else the actions to try.

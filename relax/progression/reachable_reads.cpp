@@ -1,0 +1,86 @@
+#include "relax/progression/reachable_reads.hpp"
+
+#include <algorithm>
+
+#include "relax/analysis/task_reads.hpp"
+#include "relax/base/bits.hpp"
+
+namespace relax {
+
+ReachableReads::ReachableReads(const GroundProblem& problem, Limits& limits)
+    : problem_(problem),
+      readers_(invert(problem.preconditions, problem.fact_count(), limits)),
+      missing_(problem.action_count()),
+      reached_(words_for(problem.fact_count())),
+      reads_(words_for(problem.fact_count())) {
+    for (const ActionId action : problem.actions()) {
+        precondition_counts_.push_back(static_cast<std::uint32_t>(problem.preconditions[action].size()));
+        if (precondition_counts_.back() == 0) {
+            always_.push_back(action);
+        }
+    }
+}
+
+std::span<const std::uint64_t> ReachableReads::of(std::span<const std::uint64_t> state) {
+    std::ranges::copy(precondition_counts_, missing_.begin());
+    std::ranges::fill(reached_, 0);
+    std::ranges::fill(reads_, 0);
+    for (const ActionId action : always_) {
+        reach(action);
+    }
+    for_each_bit(state, [this](std::size_t fact) { reach(FactId(static_cast<std::uint32_t>(fact))); });
+    while (!pending_.empty()) {
+        const FactId fact = pending_.back();
+        pending_.pop_back();
+        for (const ActionId action : readers_[fact]) {
+            if (--missing_[action] == 0) {
+                reach(action);
+            }
+        }
+    }
+    return reads_;
+}
+
+void ReachableReads::reach(FactId fact) {
+    if (!has_bit(reached_, fact)) {
+        set_bit(reached_, fact);
+        pending_.push_back(fact);
+    }
+}
+
+void ReachableReads::reach(ActionId action) {
+    add_reads(problem_, action, reads_);
+    for (const EffectId effect : problem_.effects[action]) {
+        for (const FactId fact : problem_.effect_adds[effect]) {
+            reach(fact);
+        }
+    }
+}
+
+StateId ReducedStates::of(StateId state, StateRegistry& states) {
+    while (known_.size() <= state) {
+        known_.push_back(kUnknown);
+    }
+    if (known_[state] != kUnknown) {
+        return known_[state];
+    }
+    StateId reduced = state;
+    if (is_looked_at(state)) {
+        const auto facts = states[state];
+        const auto matter = reads_.of(facts);
+        kept_.assign(facts.begin(), facts.end());
+        for (std::size_t word = 0; word < kept_.size(); ++word) {
+            kept_[word] &= matter[word];
+        }
+        reduced = states.intern(kept_);
+        ++seen_;
+        reduced_ += reduced == state ? 0 : 1;
+        while (known_.size() <= reduced) {
+            known_.push_back(kUnknown);
+        }
+        known_[reduced] = reduced;
+    }
+    return known_[state] = reduced;
+}
+
+}  // namespace relax
