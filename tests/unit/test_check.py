@@ -111,6 +111,19 @@ def test_advice_on_probabilities_helps_with_what_is_wrong(block: str, advice: st
     assert [(finding.code, finding.advice) for finding in check("domain.hddl")] == [("probabilities", advice)]
 
 
+@pytest.mark.parametrize(("value", "shown"), [("-0.5", ["-0.5"]), ("1.5", ["1.5"]), ("1", []), ("0", [])])
+def test_values_that_are_no_probabilities(value: str, shown: list[str]) -> None:
+    mutated("(:task go", "(:functions (chance ?x - t) - number)\n  (:task go")
+    text = Path("domain.hddl").read_text(encoding="utf-8")
+    outcomes = "(probabilistic (chance ?x) (and (p ?x) (q)))"
+    Path("domain.hddl").write_text(text.replace("(and (p ?x) (q))", outcomes), encoding="utf-8")
+    Path("problem.hddl").write_text(PROBLEM.replace("(:init", f"(:init (= (chance a) {value})"), encoding="utf-8")
+    said = [f for f in check("domain.hddl", "problem.hddl") if f.code == "probabilities"]
+    assert [finding.message for finding in said] == [
+        f"':init' gives (chance a) the value {each}, a probability in action 'act'" for each in shown
+    ]
+
+
 def test_an_object_that_only_a_problem_declares() -> None:
     mutated("(act ?x)", "(act b)")
     (finding,) = check("domain.hddl")

@@ -60,7 +60,13 @@ class Action:
     @property
     def expressions(self) -> Iterator[Expression]:
         """The expressions of its costs and of all probabilities."""
-        yield from (expression for block in self.all_costs for branch in block.branches for expression in branch)
+        yield from (cost for block in self.all_costs for _, cost in block.branches)
+        yield from self.probabilities
+
+    @property
+    def probabilities(self) -> Iterator[Expression]:
+        """The probabilities in its costs and of its outcomes."""
+        yield from (probability for block in self.all_costs for probability, _ in block.branches)
         yield from (outcome.probability for block in self.outcomes for outcome in block.outcomes)
 
 
