@@ -107,6 +107,7 @@ def test_pictures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["--objective", "mean-deviation 1"], 31, "no policy can be found by 'mean-deviation 1'"),
         (["--objective", "success-utility alpha=1"], 31, "counts on one outcome of each action"),
         (["--failure-cost", "-1"], 2, "at least 0"),
+        (["--failure-cost", "much"], 2, "argument --failure-cost: expected a number, found 'much'"),
         (["--failure-cost", "inf"], 2, "'deadline' and 'quantile' only"),
         (["--objective", "success", "--failure-cost", "3"], 2, "failing has no cost"),
         (["--adaptive"], 2, "several outcomes"),

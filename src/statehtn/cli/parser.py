@@ -26,6 +26,7 @@ class Parser(argparse.ArgumentParser):
             known = re.findall(r"[\w-]+", match["known"])
             message = f"{message[: match.start()]}there is no '{match['found']}'{did_you_mean(match['found'], known)}; "
             message += f"choose from {', '.join(known)}"
+        message = message.replace("invalid float value:", "expected a number, found")
         raise UsageError(f"{message} (see '{self.prog} --help')")
 
     def print_help(self, file: SupportsWrite[str] | None = None) -> None:
