@@ -12,7 +12,7 @@ from statehtn.counted import likely
 from statehtn.display.comparison import comparison_text
 from statehtn.display.table import on_the_point
 from statehtn.display.words import counted_on, value_text
-from statehtn.model import CostDistribution
+from statehtn.model import CostDistribution, CostSum
 from statehtn.model.plan_outcome import PlanOutcome
 from statehtn.risk import ValueUnit
 from tests.unit.test_why import SLIPPERY, SLIPPERY_ROADS, read
@@ -41,6 +41,12 @@ def test_probabilities_everywhere() -> None:
     assert str(CostDistribution.of([(1 - 1e-9, 4), (1e-9, 7)])) == "4 w.p. 1 - 1e-09, 7 w.p. 1e-09"
     assert value_text(1 - 1e-11, ValueUnit.PROBABILITY) == "1 - 1e-11"
     assert value_text(1 - 2**-53, ValueUnit.PROBABILITY) == "1"  # the rounding of a sum
+
+
+def test_parts_of_a_cost_that_are_nothing_are_not_shown() -> None:
+    free, due = CostDistribution.certain(0), CostDistribution.of([(0.2, 6), (0.8, 11)])
+    assert str(CostSum((free, due))) == "6 w.p. 0.2, 11 w.p. 0.8"
+    assert str(CostSum((free, free))) == "0"
 
 
 def test_points_stand_below_each_other() -> None:

@@ -92,6 +92,15 @@ def test_outcomes_after_which_nothing_is_left() -> None:
 DEAD_ENDS = SLIPPERY.replace("0.5 ()", "0.1 (not (at ?a)) 0.4 ()")
 
 
+def test_a_dead_end_that_is_hardly_ever_met() -> None:
+    hardly = DEAD_ENDS.replace("0.5 (and", "0.99999999999999999999 (and").replace(
+        "0.1 (not (at ?a)) 0.4 ()", "0.00000000000000000001 (not (at ?a))"
+    )
+    text = str(statehtn.why(read(SLIPPERY_ROADS, hardly)))
+    assert "No policy is done with probability 1: the most likely one is done with probability 1 - 2e-20." in text
+    assert "(drive a b) if it does not come to (at b), 1e-20; runs of that policy come to it with" in text
+
+
 def test_by_success_there_is_a_policy() -> None:
     answer = statehtn.why(read(SLIPPERY_ROADS, DEAD_ENDS), objective="success")
     assert isinstance(answer, statehtn.NoPlan)

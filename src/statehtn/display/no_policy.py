@@ -67,7 +67,7 @@ def no_policy_lines(answer: NoPolicy) -> Iterator[str]:
         return
     known = "the most likely one" if answer.is_proven else "the most likely one that was found"
     wanted = "1" if answer.wanted_success == 1 else f"{likely(answer.wanted_success)}, whatever it spends"
-    most = f"{known} is done with probability {likely(answer.most_success)}"
+    most = f"{known} is done with probability {likely(answer.most_success, answer.failure)}"
     yield f"No policy is done with probability {wanted}: {most}."
     yield from _dead_end_lines(answer)
     yield _advice(answer)

@@ -71,6 +71,8 @@ class NoPolicy:
         loops: where policies are done for certain, outcomes in the one of least expected cost after which it comes back
             to where it was.
         finite_below: the alpha below which that policy has a finite value for averse agents; None of other agents.
+        failure: the probability that the policy that is most likely done is not, right however small it is; None where
+            there is none.
     """
 
     settings: PolicySettings
@@ -79,6 +81,7 @@ class NoPolicy:
     dead_ends: tuple[BadOutcome, ...] = ()
     loops: tuple[BadOutcome, ...] = ()
     finite_below: float | None = None
+    failure: float | None = None
 
     @property
     def objective(self) -> PolicyObjective:
@@ -128,7 +131,10 @@ def what_is_lost(found: PolicyResult) -> NoPolicy | None:
     if found.policy is None or not isinstance(found.objective, Success) or not found.policy.failure_probability:
         return None
     ends = tuple(_dead_ends(found.policy.graph, Chain(found.policy.graph.flat)))
-    return NoPolicy(found.settings, found.policy.success_probability, found.status is Status.OPTIMAL, ends)
+    lost = found.policy.failure_probability
+    return NoPolicy(
+        found.settings, found.policy.success_probability, found.status is Status.OPTIMAL, ends, failure=lost
+    )
 
 
 def reasons_of_chance(session: Session, settings: PolicySettings, limits: Limits) -> NoPolicy | PolicyResult:
@@ -150,7 +156,8 @@ def reasons_of_chance(session: Session, settings: PolicySettings, limits: Limits
     if chain.sure[0]:
         below = _finite_below(chain, settings.objective)
         return NoPolicy(settings, 1.0, True, (), tuple(_loops(policy.graph, chain)), below)
-    return NoPolicy(settings, likely.value or 0.0, is_proven, tuple(_dead_ends(policy.graph, chain)))
+    ends = tuple(_dead_ends(policy.graph, chain))
+    return NoPolicy(settings, likely.value or 0.0, is_proven, ends, failure=policy.failure_probability)
 
 
 def _dead_ends(graph: PolicyGraph, chain: Chain) -> list[BadOutcome]:

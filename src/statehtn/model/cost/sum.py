@@ -110,9 +110,10 @@ class CostSum(CostLaw):
         return self.total.curve(points)
 
     def __str__(self) -> str:
-        if len(self.parts) > MOST_SHOWN:
-            return f"{len(self.parts)} independent parts, from {self.least:g} to {self.most:g}"
-        return " + ".join(map(str, self.parts))
+        shown = [part for part in self.parts if part.most != 0] or self.parts[:1]
+        if len(shown) > MOST_SHOWN:
+            return f"{len(shown)} independent parts, from {self.least:g} to {self.most:g}"
+        return " + ".join(map(str, shown))
 
 
 @dataclass(frozen=True, slots=True, repr=False)
