@@ -18,6 +18,7 @@ PLAN_BASED = "tests/differential/test_plan_based.py"
 WALKS = "tests/differential/test_merged_sequences.py"
 RECURSION = "tests/differential/test_forced_recursion.py"
 POLICY_PROGRESSION = "tests/differential/test_policy_progression.py"
+POLICY_CHORD = "tests/differential/test_policy_chord.py"
 GROUND_OUTCOMES = "tests/property/test_grounding_outcomes.py"
 PRECISION = "tests/differential/test_optimal_is_optimal.py"
 FINITE = "tests/differential/test_finite_objectives.py"
@@ -409,5 +410,19 @@ MUTATIONS = [
         "chosen_[at] = (chosen_[at] + 1) % instances_[at].branches.size();",
         "chosen_[at] = at > 0 ? 0 : (chosen_[at] + 1) % instances_[at].branches.size();",
         (GROUND_OUTCOMES,),
+    ),
+    Mutation(
+        "policies: lines below all policies do not count how unlikely it is what an averse agent sees",
+        "relax/policies/policy_chord.cpp",
+        "draft.cost -= prices_.high * divergence;",
+        "",
+        (POLICY_CHORD,),
+    ),
+    Mutation(
+        "policies: lines below all policies take open nodes to be worth more than is known of them",
+        "relax/policies/policy_chord.cpp",
+        "copy_nodes(lines_, prices_.explored);",
+        "copy_nodes(lines_, prices_.explored * 1.5);",
+        (POLICY_CHORD,),
     ),
 ]
