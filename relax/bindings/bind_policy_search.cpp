@@ -48,8 +48,9 @@ relax::HeuristicInfo admissible(std::string_view name) {
 class PolicyRun {
 public:
     PolicyRun(const relax::PricedProblem& priced, const relax::PolicySearchOptions& options, Amounts probabilities,
-              const std::vector<bool>& free_actions, const relax::SeenCosts& seen, bool only_done_runs_pay)
-        : priced_(priced), options_(options), probabilities_(std::move(probabilities)) {
+              const std::vector<bool>& free_actions, const relax::SeenCosts& seen, bool only_done_runs_pay,
+              bool follow_forced)
+        : priced_(priced), options_(options), probabilities_(std::move(probabilities)), follows_forced_(follow_forced) {
         const auto& problem = priced.problem;
         check_entries(problem, free_actions, seen);
         if (probabilities_.size() != problem.action_count()) {
@@ -144,6 +145,7 @@ public:
             result.stop = relax::run_within_limits([&]() -> std::optional<relax::StopReason> {
                 if (!source_) {
                     source_ = make_();
+                    source_->set_follows_forced(follows_forced_);
                     search_.emplace(*source_, options_, limits_, statistics_);
                 }
                 return std::nullopt;
@@ -254,6 +256,7 @@ private:
     const relax::PricedProblem& priced_;
     relax::PolicySearchOptions options_;
     Amounts probabilities_;
+    bool follows_forced_;
     relax::Limits limits_;
     relax::PolicyStatistics statistics_;
     std::optional<relax::PolicyProgression> progression_;
@@ -280,12 +283,13 @@ void bind_policy_search(nb::module_& module) {
             "__init__",
             [](PolicyRun* self, const relax::PricedProblem& priced, const relax::PolicySearchOptions& options,
                Amounts probabilities, const std::vector<bool>& free_actions, std::vector<bool> seen_actions,
-               std::vector<bool> seen_parts, bool only_done_runs_pay) {
-                new (self) PolicyRun(priced, options, std::move(probabilities), free_actions,
-                                     {std::move(seen_actions), std::move(seen_parts)}, only_done_runs_pay);
+               std::vector<bool> seen_parts, bool only_done_runs_pay, bool follow_forced) {
+                new (self)
+                    PolicyRun(priced, options, std::move(probabilities), free_actions,
+                              {std::move(seen_actions), std::move(seen_parts)}, only_done_runs_pay, follow_forced);
             },
             "priced"_a, "options"_a, "probabilities"_a, "free_actions"_a, "seen_actions"_a, "seen_parts"_a,
-            "only_done_runs_pay"_a, nb::keep_alive<1, 2>())
+            "only_done_runs_pay"_a, "follow_forced"_a = true, nb::keep_alive<1, 2>())
         .def("take_amounts", &PolicyRun::take_amounts, "actions"_a, "parts"_a, "costs"_a, "part_costs"_a, "stop"_a,
              "unit"_a, "heuristic"_a)
         .def("take_laws", &PolicyRun::take_laws, "laws"_a, "means"_a, "units_per_step"_a, "of_left"_a, "gain"_a,

@@ -39,7 +39,7 @@ void PlanningSource::find_decisions(PolicyNodeId node) {
 // Let a decision go on as long as it can. Recursion might do so for ever.
 void PlanningSource::follow(PolicyDecision& decision, std::vector<TracedStep>* steps) {
     constexpr std::uint32_t kMostSteps = 100;
-    for (std::uint32_t count = 0; count < kMostSteps; ++count) {
+    for (std::uint32_t count = 0; follows_forced_ && count < kMostSteps; ++count) {
         if (decision.outcomes.size() != 1 || !progression_.costs_and_changes_nothing(decision.outcomes.front())) {
             return;
         }

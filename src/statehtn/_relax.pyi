@@ -827,6 +827,7 @@ class PolicyRun:
         seen_actions: Sequence[bool],
         seen_parts: Sequence[bool],
         only_done_runs_pay: bool,
+        follow_forced: bool = True,
     ) -> None: ...
     def take_amounts(
         self,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from unittest import mock
 
@@ -18,6 +19,7 @@ from hypothesis import strategies as st
 import statehtn
 from statehtn import PolicyResult, Problem, Status
 from statehtn.core.policy_cut import CutPolicies
+from statehtn.core.switches import PolicySwitches
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.limits import Limits
 from statehtn.model.policy_graph import PolicyNode
@@ -101,13 +103,18 @@ def problems(orders: Sequence[str]) -> st.SearchStrategy[Problem]:
     return st.one_of(chance_problems(tuple(orders)), chance_problems(tuple(orders)), wide_problems(tuple(orders)))
 
 
-def search(problem: Problem, wanted: ObjectiveLike, failure_cost: FailureCost = None) -> PolicyResult:
+def search(
+    problem: Problem,
+    wanted: ObjectiveLike,
+    failure_cost: FailureCost = None,
+    switches: PolicySwitches = PolicySwitches(),
+) -> PolicyResult:
     """The planner's answer; give up where a limit came first."""
     price = None if failure_cost is None else float(failure_cost)
     precision = BY_SWEEP if str(wanted).startswith("evar") else PRECISION
     settings = PolicySettings.of(wanted, failure_cost=price, precision=precision)
     try:
-        result = find_policy(Session(problem), settings, LIMITS)
+        result = find_policy(Session(problem), replace(settings, switches=switches), LIMITS)
     except InputError as error:
         if "more than 64 outcomes" in str(error):
             raise GaveUp from error
@@ -198,6 +205,21 @@ def probability_of(way: Way, cost: float) -> Fraction:
 @given(data=st.data())
 def test_neutral_and_exponential(orders: tuple[str, ...], data: st.DataObject) -> None:
     check(data.draw(problems(orders)), data.draw(PLAIN), data.draw(FAILURE_COSTS))
+
+
+@SHARE
+@given(data=st.data())
+def test_decisions_that_go_on_through_what_must_come(data: st.DataObject) -> None:
+    """Left out, every step is a node; values are the same."""
+    problem = data.draw(problems(("total", "none", "partial")))
+    family = st.one_of(PLAIN, st.just("success"), MEMORY["deadline"], MEMORY["one-switch"])
+    text, price = data.draw(family), data.draw(FAILURE_COSTS)
+    price = None if text == "success" else price
+    followed, stepwise = (search(problem, text, price, PolicySwitches(follow_forced=on)) for on in (True, False))
+    assert stepwise.status is followed.status
+    if followed.value is not None:
+        assert stepwise.value == pytest.approx(followed.value, **CLOSE)
+        must_be_a_run(problem, stepwise, 0)
 
 
 @pytest.mark.parametrize("orders", ORDERS)

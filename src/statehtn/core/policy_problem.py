@@ -10,6 +10,7 @@ import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.pricing import Pricing, RiskCost, price
 from statehtn.core.scale import Scale
+from statehtn.core.switches import PolicySwitches
 from statehtn.limits import Limits
 from statehtn.risk.neutral import Neutral
 
@@ -22,11 +23,13 @@ class PolicyProblem:
         grounding: the ground problem; its methods are whole.
         heuristic: the name of an admissible heuristic in `HEURISTICS`.
         limits: they hold for all that is worked out.
+        switches: refinements of the search.
     """
 
     grounding: Grounding
     heuristic: str
     limits: Limits
+    switches: PolicySwitches = PolicySwitches()
 
     @cached_property
     def probabilities(self) -> list[float]:
@@ -66,7 +69,8 @@ class PolicyProblem:
             sees_costs: whether what comes next may depend on what actions have cost.
         """
         seen = uncertain_costs(self.grounding) if sees_costs else ([], [])
-        return _relax.PolicyRun(handle, options, self.probabilities, self.free_actions, *seen, only_done_runs_pay)
+        by_action = self.probabilities, self.free_actions, *seen
+        return _relax.PolicyRun(handle, options, *by_action, only_done_runs_pay, self.switches.follow_forced)
 
 
 @dataclass(frozen=True, slots=True)

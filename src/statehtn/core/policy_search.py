@@ -18,6 +18,7 @@ from statehtn.core.policy_problem import PolicyProblem
 from statehtn.core.policy_run import PolicyRun, Watch
 from statehtn.core.policy_spending import SpendingPolicies
 from statehtn.core.progress import SearchProgress
+from statehtn.core.switches import PolicySwitches
 from statehtn.errors import UnsupportedError, UsageError
 from statehtn.limits import SECONDS_TO_READ, Limits
 from statehtn.model.policy_graph import FlatPolicy
@@ -40,6 +41,7 @@ def search_policy(
     limits: Limits = Limits(),
     progress: Callable[[SearchProgress], None] | None = None,
     value_of: Callable[[FlatPolicy], float] | None = None,
+    switches: PolicySwitches = PolicySwitches(),
 ) -> PolicyOutcome:
     """Search for the policy of least value.
 
@@ -56,6 +58,7 @@ def search_policy(
         progress: called about every 50 ms on the calling thread.
         value_of: what a policy is worth by the objective, worked out from its runs; one-switch agents and sums of
             exponentials need it.
+        switches: refinements that may be left out.
 
     Raises:
         UnsupportedError: the objective or the problem has no policies; the message says why.
@@ -68,7 +71,7 @@ def search_policy(
         return hopeless(objective, failure_cost)
     if failure_cost is not None and not isinstance(objective, Success):
         check_failure_size(grounding, objective, failure_cost)
-    problem = PolicyProblem(grounding, heuristic, limits)
+    problem = PolicyProblem(grounding, heuristic, limits, switches)
     run = _run_of(problem, objective, failure_cost, precision, progress, limits, value_of)
     outcome = run.outcome(limits)
     if outcome.graph is not None or outcome.status is not Status.UNSOLVABLE or outcome.reason is not None:

@@ -21,6 +21,14 @@ class ProgressionSwitches:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PolicySwitches:
+    """Refinements of the search for a policy."""
+
+    follow_forced: bool = True
+    """Let decisions go on through all steps that must come after them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class BoundSwitches(ProgressionSwitches):
     """Refinements of every search by f: what nodes are bounded by before the heuristic is asked."""
 

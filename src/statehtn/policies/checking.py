@@ -235,17 +235,21 @@ def _ways_there(policy: Policy) -> dict[int, tuple[int, int]]:
 def _ways_on(policy: Policy) -> dict[int, int | None]:
     """Return for each node from which a run may be done the branch of a shortest way there; None where it is done."""
     flat = policy.graph.flat
-    before: dict[int, list[tuple[int, int]]] = {}
-    for node in range(len(flat)):
-        for branch in flat.branches(node):
-            before.setdefault(flat.successors[branch], []).append((node, branch))
+    # Chains of the branches that lead to the same node, since lists of them would take much memory.
+    owner = [node for node in range(len(flat)) for _ in flat.branches(node)]
+    first, following = [-1] * len(flat), [-1] * len(owner)
+    for branch in reversed(range(len(owner))):
+        following[branch], first[flat.successors[branch]] = first[flat.successors[branch]], branch
     found: dict[int, int | None] = {node: None for node, end in enumerate(flat.ends) if end is End.DONE}
     queue = deque(found)
     while queue:
-        for node, branch in before.get(queue.popleft(), ()):
+        branch = first[queue.popleft()]
+        while branch >= 0:
+            node = owner[branch]
             if node not in found:
                 found[node] = branch
                 queue.append(node)
+            branch = following[branch]
     return found
 
 

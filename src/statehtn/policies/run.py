@@ -115,6 +115,7 @@ class PolicyPipeline:
             precision=settings.precision,
             limits=self.limits,
             value_of=self._value_of,
+            switches=settings.switches,
         )
         if isinstance(settings.objective, EntropicValueAtRisk):
             from statehtn.policies.evar import EvarSearch  # few runs need it

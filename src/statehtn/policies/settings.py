@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from statehtn.core.switches import PolicySwitches
 from statehtn.errors import UsageError
 from statehtn.expected import number
 from statehtn.risk import Attitude, AttitudeName, ObjectiveLike, Success, agent_in, problem_class
@@ -27,12 +28,14 @@ class PolicySettings:
             None: only policies count that are done with probability 1, or by `success` those most likely to be done.
         adaptive: whether the best plan is looked for, too, which does not look at what was spent.
         precision: how far from the best a policy may be that counts as optimal, as a part of max(1, value).
+        switches: refinements of the search that may be left out.
     """
 
     objective: PolicyObjective
     failure_cost: float | None = None
     adaptive: bool = False
     precision: float = DEFAULT_PRECISION
+    switches: PolicySwitches = PolicySwitches()
 
     @staticmethod
     def of(

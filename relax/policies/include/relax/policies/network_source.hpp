@@ -46,6 +46,9 @@ public:
     PlanningSource(PolicyProgression& progression, std::vector<double> probabilities)
         : progression_(progression), nodes_(progression), probabilities_(std::move(probabilities)) {}
 
+    // Whether decisions go on through what must come after them; before there is a node.
+    void set_follows_forced(bool follows_forced) { follows_forced_ = follows_forced; }
+
     const NetworkNodes& nodes() const { return nodes_; }
     PairId pair_of(StateId state, NetworkId network) { return nodes_.pair_of(state, network); }
     PolicyProgression& progression() { return progression_; }
@@ -89,6 +92,7 @@ private:
     void follow(PolicyDecision& decision, std::vector<TracedStep>* steps);
 
     std::vector<double> probabilities_;
+    bool follows_forced_ = true;
     std::vector<PolicyDecision> decisions_;
     bool heeds_costs_ = true;  // at the node of these: what is left matters there
     std::vector<PolicyDecision> next_;
