@@ -12,7 +12,7 @@ from functools import cached_property
 
 from statehtn.model.policy_graph import End, FlatPolicy
 from statehtn.policies.components import components
-from statehtn.policies.equations import by_law, log_sum, solution
+from statehtn.policies.equations import MOST_DENSE, MUCH, by_law, log_sum, solution
 
 NEARLY_NEUTRAL = 1e-3
 """Of a slope times the mean: below, an exponential is nearly a line."""
@@ -36,6 +36,11 @@ class Chain:
     def order(self) -> list[list[int]]:
         """Nodes that lead to each other together, each such component after all that it leads to."""
         return components(self.flat.first, self.flat.successors)
+
+    @cached_property
+    def is_large(self) -> bool:
+        """Whether there are many loops, or long ones."""
+        return sum(len(component) ** 3 for component in self.order if len(component) <= MOST_DENSE) > MUCH
 
     def loops(self, component: Sequence[int]) -> bool:
         """Tell whether a run can come back to a component's nodes."""
@@ -228,7 +233,7 @@ class Chain:
             if any(map(math.isinf, added)):
                 solved = [math.inf] * len(component)
             else:
-                solved = solution(matrix, added, len(component))
+                solved = solution(matrix, added, len(component), self.is_large)
             for node, value in zip(component, solved, strict=True):
                 values[node] = value
 
@@ -266,7 +271,7 @@ class Chain:
                 for b in flat.branches(node)
                 if b in factors
             ]
-            solved = solution(matrix, [shares[node] for node in component], len(component))
+            solved = solution(matrix, [shares[node] for node in component], len(component), self.is_large)
             if not all(math.isfinite(u) for u in solved) or min(solved) < -ROUNDING * max(map(abs, solved)):
                 solved = None
         for place, node in enumerate(component):

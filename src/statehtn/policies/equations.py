@@ -16,14 +16,24 @@ if TYPE_CHECKING:
 
     Vector = NDArray[float64]
 
-FEW = 100
-"""Equations: more are solved as sparse ones where scipy is installed; dense ones take the cube of their number."""
 MOST_DENSE = 400
-"""Equations that are solved without scipy."""
+"""Equations: more are solved as sparse ones."""
+FEW = 100
+"""Equations: more are solved as sparse ones where there are many systems of them, and scipy is installed."""
+MUCH = 2_000_000_000
+"""Of the cubes of the numbers of equations: dense systems take longer together than to import scipy."""
 
 
-def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], count: int) -> list[float]:
+def solution(
+    matrix: Sequence[tuple[int, int, float]], added: Sequence[float], count: int, is_one_of_many: bool = False
+) -> list[float]:
     """Return x of `x = M x + b`; infinite numbers where there is no single one.
+
+    Args:
+        matrix: row, column and weight.
+        added: b.
+        count: the number of equations.
+        is_one_of_many: whether so many such systems are solved that dense ones take long.
 
     Raises:
         UsageError: there are many equations, and scipy is not installed.
@@ -40,7 +50,7 @@ def solution(matrix: Sequence[tuple[int, int, float]], added: Sequence[float], c
             return [math.inf] * count
         return [float(value) for value in found]
 
-    if count <= FEW:
+    if count <= (FEW if is_one_of_many else MOST_DENSE):
         return dense_solution()
     try:
         from scipy.sparse import csr_matrix, identity
