@@ -4,7 +4,6 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -202,13 +201,13 @@ public:
         return *trace_;
     }
     std::vector<relax::FactId> facts(std::uint32_t node) {
-        relax::StateBits facts = facts_that_matter(node);
-        const auto state = progression_->states()[source_->nodes().state(place(node).pair)];
-        std::ranges::transform(facts, state, facts.begin(), std::bit_and());
-        return facts_in(facts);
+        return facts_in(progression_->states()[source_->nodes().state(place(node).pair)]);
     }
     // Those that matter from there on, true or false.
-    std::vector<relax::FactId> known(std::uint32_t node) { return facts_in(facts_that_matter(node)); }
+    std::vector<relax::FactId> known(std::uint32_t node) {
+        const auto pair = place(node).pair;
+        return facts_in(progression_->facts_that_matter(source_->nodes().state(pair), source_->nodes().network(pair)));
+    }
     std::vector<relax::TaskId> tasks(std::uint32_t node) { return ordered(node).tasks; }
     OrderedPairs ordering(std::uint32_t node) { return ordered_pairs(ordered(node)); }
     // None where it is used up.
@@ -245,10 +244,6 @@ public:
 
 private:
     const relax::NetworkNodes::Node& place(std::uint32_t node) const { return trace().nodes.at(node); }
-    relax::StateBits facts_that_matter(std::uint32_t node) {
-        const auto pair = place(node).pair;
-        return progression_->facts_that_matter(source_->nodes().state(pair), source_->nodes().network(pair));
-    }
     const relax::OrderedTasks& ordered(std::uint32_t node) {
         return progression_->ordered_tasks(source_->nodes().network(place(node).pair));
     }

@@ -232,14 +232,11 @@ StateBits Progression::facts_that_matter(StateId state, NetworkId network) {
     for (const FactId fact : problem_.facts()) {
         set_bit(facts, fact);
     }
-    const auto keep = [&facts](std::span<const std::uint64_t> others) {
-        std::ranges::transform(facts, others, facts.begin(), std::bit_and());
-    };
     if (relevant_facts_) {
-        keep(relevant_facts_->of(*networks_, network));
+        std::ranges::transform(facts, relevant_facts_->of(*networks_, network), facts.begin(), std::bit_and());
     }
     if (reduced_states_) {
-        keep(reduced_states_->facts_that_matter(states_[state]));
+        reduced_states_->keep_what_matters(state, states_, facts);
     }
     return facts;
 }

@@ -1,6 +1,7 @@
 #include "relax/progression/reachable_reads.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "relax/analysis/task_reads.hpp"
 #include "relax/base/bits.hpp"
@@ -58,14 +59,12 @@ void ReachableReads::reach(ActionId action) {
 }
 
 StateId ReducedStates::of(StateId state, StateRegistry& states) {
-    while (known_.size() <= state) {
-        known_.push_back(kUnknown);
-    }
+    make_room(state);
     if (known_[state] != kUnknown) {
         return known_[state];
     }
     StateId reduced = state;
-    if (is_looked_at(state)) {
+    if (is_to_be_looked_at(state)) {
         const auto facts = states[state];
         const auto matter = reads_.of(facts);
         kept_.assign(facts.begin(), facts.end());
@@ -74,13 +73,25 @@ StateId ReducedStates::of(StateId state, StateRegistry& states) {
         }
         reduced = states.intern(kept_);
         ++seen_;
-        reduced_ += reduced == state ? 0 : 1;
-        while (known_.size() <= reduced) {
-            known_.push_back(kUnknown);
-        }
+        merged_ += reduced < known_.size() && reduced != state ? 1 : 0;  // another state had become this one
+        make_room(reduced);
         known_[reduced] = reduced;
+        is_reduced_[reduced] = true;
     }
     return known_[state] = reduced;
+}
+
+void ReducedStates::keep_what_matters(StateId state, const StateRegistry& states, StateBits& facts) {
+    if (is_reduced_[state]) {
+        std::ranges::transform(facts, reads_.of(states[state]), facts.begin(), std::bit_and());
+    }
+}
+
+void ReducedStates::make_room(StateId state) {
+    while (known_.size() <= state) {
+        known_.push_back(kUnknown);
+        is_reduced_.push_back(false);
+    }
 }
 
 }  // namespace relax

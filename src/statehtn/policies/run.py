@@ -14,7 +14,7 @@ from statehtn.core.progress import SearchProgress
 from statehtn.effort import Meter
 from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.found_plan import SECONDS_TO_VALIDATE
-from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.limits import ENDINGS, Limits, status_of, watched
 from statehtn.log import log
 from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
@@ -148,7 +148,7 @@ class PolicyPipeline:
         """Work out what the policy is worth from the policy alone, as far as limits and Ctrl-C let it."""
         if self.policy is None:
             return
-        with self._in_time() as left, self.policy.cost_distribution().within(left):
+        with self._in_time() as left, watched(left):
             try:
                 self.value = self.policy.value
             except UnsupportedError:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from statehtn.errors import InputError
 from statehtn.expected import number
-from statehtn.limits import Limits
 from statehtn.model.cost.distribution import ROUNDING, CostDistribution
 from statehtn.model.cost.infinite import InfiniteMean
 from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_function, checked_probability
@@ -42,16 +40,6 @@ class PolicyCost(CostLaw):
     def __init__(self, chain: Chain, failure: float = 0.0) -> None:
         self.chain = chain
         self.failure = failure
-        self._limits = Limits()
-
-    @contextmanager
-    def within(self, limits: Limits) -> Iterator[None]:
-        """Let limits hold for what is worked out meanwhile; they end it by `LimitReached`."""
-        self._limits = limits
-        try:
-            yield
-        finally:
-            self._limits = Limits()
 
     @cached_property
     def totals(self) -> Totals:
@@ -60,7 +48,7 @@ class PolicyCost(CostLaw):
         Raises:
             UnsupportedError: a cost is no list of outcomes, or there are too many amounts.
         """
-        return totals_of(self.chain, self._limits)
+        return totals_of(self.chain)
 
     @cached_property
     def outcomes(self) -> tuple[tuple[float, float], ...]:

@@ -46,30 +46,33 @@ private:
     StateBits reads_;
 };
 
-// States without the facts that no longer matter to them. Where hardly any state has such facts, only one in a few is
+// States without the facts that no longer matter to them. Where hardly any two become one by that, only one in a few is
 // looked at.
 class ReducedStates {
 public:
     ReducedStates(const GroundProblem& problem, Limits& limits) : reads_(problem, limits) {}  // throws Stopped
 
     StateId of(StateId state, StateRegistry& states);
-    // What matters to a state, as bits by FactId; valid until the next call.
-    std::span<const std::uint64_t> facts_that_matter(std::span<const std::uint64_t> state) { return reads_.of(state); }
+    // Of such a state: keep of some facts, bits by FactId, those that matter to it.
+    void keep_what_matters(StateId state, const StateRegistry& states, StateBits& facts);
 
 private:
     static constexpr StateId kUnknown{static_cast<std::uint32_t>(-1)};
     static constexpr std::uint64_t kFirst = 256;  // states that are looked at in any case
-    static constexpr std::uint64_t kWorth = 16;   // looking at so many states is worth it where one is reduced
-    static constexpr std::uint32_t kSample = 16;  // of so many states one is looked at else
+    static constexpr std::uint64_t kWorth = 16;   // looking at so many states is worth it where one is merged
+    static constexpr std::uint32_t kSample = 64;  // of so many states one is looked at else
 
-    bool is_looked_at(StateId state) const {
-        return seen_ < kFirst || reduced_ * kWorth >= seen_ || state % kSample == 0;
+    bool is_to_be_looked_at(StateId state) const {
+        return seen_ < kFirst || merged_ * kWorth >= seen_ || state % kSample == 0;
     }
+
+    void make_room(StateId state);
 
     ReachableReads reads_;
     SegmentedArray<StateId> known_;
+    std::vector<bool> is_reduced_;  // by StateId: it has been looked at, or another one has become it
     std::uint64_t seen_ = 0;
-    std::uint64_t reduced_ = 0;
+    std::uint64_t merged_ = 0;
     StateBits kept_;
 };
 
