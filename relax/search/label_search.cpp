@@ -75,12 +75,12 @@ LabelSearchResult LabelSearch::run() {
     const Limits::Grace grace(limits_);
     const bool is_complete =
         plans_.size() < options_.count ? !has_left_out_ : open_.is_empty() && !has_pruned_ && !labels_.has_pruned();
-    result.is_all = !result.stop && is_complete;
+    result.is_all = !result.stop && is_complete && (plans_.empty() || !leaves_out_orders());
     if (result.is_all) {
         statistics_.lower_bound.reset();
         statistics_.proven = plans_.size();
     } else if (!result.stop) {
-        note_proven(cutoff_);
+        note_proven(is_complete ? labels_[plans_.back()].bound : cutoff_);
     }
     for (const LabelId goal : plans_) {
         SearchResult plan;
@@ -98,6 +98,12 @@ LabelSearchResult LabelSearch::run() {
     }
     result.statistics = statistics_;
     return result;
+}
+
+// Whether plans may be left out for one that has the same actions in another order, and costs the same.
+bool LabelSearch::leaves_out_orders() {
+    return options_.distinct == Distinct::Sequence && !options_.tells_sequences() &&
+           !progression_.networks().are_totally_ordered();
 }
 
 // Search until no open label leads to a plan that is wanted. Says why it was stopped before that.

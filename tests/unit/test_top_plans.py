@@ -281,3 +281,20 @@ def test_output(files: Files, tmp_path: Path, capsys: pytest.CaptureFixture[str]
         assert reason in capsys.readouterr().err
     assert main(["top", "2", files["domain"], files["unsolvable"], "--output", str(tmp_path / "none")]) == 10
     assert not (tmp_path / "none").exists()
+
+
+UNORDERED = """(define (domain d) (:functions (total-cost) - number)
+  (:task t :parameters ())
+  (:method m :parameters () :task (t) :subtasks (and (a) (b)))
+  (:action a :parameters () :effect (increase (total-cost) 1))
+  (:action b :parameters () :effect (increase (total-cost) 2)))"""
+
+
+def test_the_best_plan_alone_leaves_others_that_differ_in_order() -> None:
+    """One plan is found without a look at the other orders of its actions, so nothing is known of their number."""
+    problem = statehtn.read_hddl_text(UNORDERED, "(define (problem p) (:domain d) (:htn :subtasks (and (t))) (:init))")
+    one = statehtn.top_plans(problem, 1)
+    assert (one.status, one.is_all, one.proven, one.lower_bound) == (Status.OPTIMAL, False, 1, 3)
+    all_of_them = statehtn.top_plans(problem, 3)
+    assert (len(all_of_them.plans), all_of_them.is_all) == (2, True)
+    assert statehtn.top_plans(problem, 1, distinct="multiset").is_all

@@ -71,6 +71,7 @@ public:
 
 private:
     bool keeps_bound(LabelId id);
+    bool leaves_out_orders();
     bool asks_from_now_on();
     void ask(LabelSpace::Node& node);
     std::uint64_t work() const;
