@@ -4,6 +4,7 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -200,13 +201,14 @@ public:
         }
         return *trace_;
     }
-    std::vector<relax::FactId> facts(std::uint32_t node) {
-        return facts_in(progression_->states()[source_->nodes().state(place(node).pair)]);
-    }
-    // Those that matter from there on, true or false.
-    std::vector<relax::FactId> known(std::uint32_t node) {
+    // The facts that hold, and those that matter from there on, true or false.
+    std::pair<std::vector<relax::FactId>, std::vector<relax::FactId>> facts(std::uint32_t node) {
         const auto pair = place(node).pair;
-        return facts_in(progression_->facts_that_matter(source_->nodes().state(pair), source_->nodes().network(pair)));
+        const relax::StateId state = source_->nodes().state(pair);
+        relax::StateBits known = progression_->facts_that_matter(state, source_->nodes().network(pair));
+        relax::StateBits holding = known;
+        std::ranges::transform(holding, progression_->states()[state], holding.begin(), std::bit_and());
+        return {facts_in(holding), facts_in(known)};
     }
     std::vector<relax::TaskId> tasks(std::uint32_t node) { return ordered(node).tasks; }
     OrderedPairs ordering(std::uint32_t node) { return ordered_pairs(ordered(node)); }
@@ -321,7 +323,6 @@ void bind_policy_search(nb::module_& module) {
         .def("due_parts", &PolicyRun::due_parts, "branch"_a)
         .def("step", &PolicyRun::step, "node"_a)
         .def("facts", &PolicyRun::facts, "node"_a)
-        .def("known", &PolicyRun::known, "node"_a)
         .def("tasks", &PolicyRun::tasks, "node"_a)
         .def("ordering", &PolicyRun::ordering, "node"_a)
         .def("left", &PolicyRun::left, "node"_a)

@@ -236,7 +236,8 @@ StateBits Progression::facts_that_matter(StateId state, NetworkId network) {
         std::ranges::transform(facts, relevant_facts_->of(*networks_, network), facts.begin(), std::bit_and());
     }
     if (reduced_states_) {
-        reduced_states_->keep_what_matters(state, states_, facts);
+        const auto others = reduced_states_->facts_that_matter(states_[state]);
+        std::ranges::transform(facts, others, facts.begin(), std::bit_and());
     }
     return facts;
 }

@@ -1,7 +1,6 @@
 #include "relax/progression/reachable_reads.hpp"
 
 #include <algorithm>
-#include <functional>
 
 #include "relax/analysis/task_reads.hpp"
 #include "relax/base/bits.hpp"
@@ -16,6 +15,7 @@ ReachableReads::ReachableReads(const GroundProblem& problem, Limits& limits)
       reads_(words_for(problem.fact_count())) {
     for (const ActionId action : problem.actions()) {
         precondition_counts_.push_back(static_cast<std::uint32_t>(problem.preconditions[action].size()));
+        work_ += 1 + precondition_counts_.back();
         if (precondition_counts_.back() == 0) {
             always_.push_back(action);
         }
@@ -63,8 +63,9 @@ StateId ReducedStates::of(StateId state, StateRegistry& states) {
     if (known_[state] != kUnknown) {
         return known_[state];
     }
+    ++met_;
     StateId reduced = state;
-    if (is_to_be_looked_at(state)) {
+    if (is_worth_looking()) {
         const auto facts = states[state];
         const auto matter = reads_.of(facts);
         kept_.assign(facts.begin(), facts.end());
@@ -76,21 +77,13 @@ StateId ReducedStates::of(StateId state, StateRegistry& states) {
         merged_ += reduced < known_.size() && reduced != state ? 1 : 0;  // another state had become this one
         make_room(reduced);
         known_[reduced] = reduced;
-        is_reduced_[reduced] = true;
     }
     return known_[state] = reduced;
-}
-
-void ReducedStates::keep_what_matters(StateId state, const StateRegistry& states, StateBits& facts) {
-    if (is_reduced_[state]) {
-        std::ranges::transform(facts, reads_.of(states[state]), facts.begin(), std::bit_and());
-    }
 }
 
 void ReducedStates::make_room(StateId state) {
     while (known_.size() <= state) {
         known_.push_back(kUnknown);
-        is_reduced_.push_back(false);
     }
 }
 

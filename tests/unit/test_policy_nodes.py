@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import statehtn
+from tests.benchmarks.policy_cases import consensus
 
 DOMAIN = """(define (domain d)
   (:predicates (open) (dark) (wet) (torn))
@@ -100,3 +101,13 @@ def test_decisions_are_right_in_states_with_facts_that_are_forgotten() -> None:
     found = statehtn.policy(statehtn.read_hddl_text(TIRES, tires(2)))
     assert found.value == pytest.approx(11.5)
     assert str(found.validated).startswith("every decision, in")
+
+
+@pytest.mark.parametrize("bound", [8, 20])
+def test_decisions_are_right_where_only_some_states_were_looked_at(bound: int) -> None:
+    """What was forgotten on the way to a state does not matter to it, whether it was looked at itself or not."""
+    case = consensus(2, bound)
+    found = statehtn.policy(statehtn.read_hddl_text(case.domain, case.problem))
+    assert found.status is statehtn.Status.OPTIMAL
+    assert found.value == pytest.approx(12 * bound**2)
+    assert found.validated is not None

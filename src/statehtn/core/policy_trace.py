@@ -66,7 +66,8 @@ class PolicyReader:
     def node(self, number: int) -> PolicyNode:
         """Return a node in the words of the domain."""
         run, handle = self.run, self.grounding.handle
-        facts = set(run.facts(number))
+        holding, known = run.facts(number)
+        facts = set(holding)
         tasks = run.tasks(number)
         end = self.flat.ends[number]
         return PolicyNode(
@@ -76,7 +77,7 @@ class PolicyReader:
             None if end is not None else self._decision(number, tasks, facts, handle),
             end,
             self.laws.left(run, number),
-            self._known_by(tuple(run.known(number))),
+            self._known_by(tuple(known)),
         )
 
     def _known_by(self, numbers: tuple[int, ...]) -> frozenset[Fact]:

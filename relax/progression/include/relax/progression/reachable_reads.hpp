@@ -30,6 +30,8 @@ public:
 
     // As bits by FactId; valid until the next call.
     std::span<const std::uint64_t> of(std::span<const std::uint64_t> state);
+    // That a call takes at most: actions and their preconditions.
+    std::uint64_t work() const { return work_; }
 
 private:
     void reach(FactId fact);
@@ -39,6 +41,7 @@ private:
     Rows<ActionId, FactId> readers_;  // those that have the fact as a precondition
     std::vector<std::uint32_t> precondition_counts_;
     std::vector<ActionId> always_;  // those that have none
+    std::uint64_t work_ = 0;
     // Of the state looked at.
     std::vector<std::uint32_t> missing_;  // by ActionId: preconditions out of reach
     StateBits reached_;
@@ -46,33 +49,36 @@ private:
     StateBits reads_;
 };
 
-// States without the facts that no longer matter to them. Where hardly any two become one by that, only one in a few is
-// looked at.
+// States without the facts that no longer matter to them. Where hardly any two become one by that, and looking takes
+// long, only some are looked at.
 class ReducedStates {
 public:
     ReducedStates(const GroundProblem& problem, Limits& limits) : reads_(problem, limits) {}  // throws Stopped
 
     StateId of(StateId state, StateRegistry& states);
-    // Of such a state: keep of some facts, bits by FactId, those that matter to it.
-    void keep_what_matters(StateId state, const StateRegistry& states, StateBits& facts);
+    // What matters to a state, as bits by FactId, whether it was looked at or not: what was forgotten on the way to it
+    // does not. Valid until the next call.
+    std::span<const std::uint64_t> facts_that_matter(std::span<const std::uint64_t> state) { return reads_.of(state); }
 
 private:
     static constexpr StateId kUnknown{static_cast<std::uint32_t>(-1)};
     static constexpr std::uint64_t kFirst = 256;  // states that are looked at in any case
     static constexpr std::uint64_t kWorth = 16;   // looking at so many states is worth it where one is merged
-    static constexpr std::uint32_t kSample = 64;  // of so many states one is looked at else
+    // Else looking may take so much for each state that is met, in actions and their preconditions: far less than what
+    // is done with a state.
+    static constexpr std::uint64_t kWorkPerState = 2000;
 
-    bool is_to_be_looked_at(StateId state) const {
-        return seen_ < kFirst || merged_ * kWorth >= seen_ || state % kSample == 0;
+    bool is_worth_looking() const {
+        return seen_ < kFirst || merged_ * kWorth >= seen_ || seen_ * reads_.work() <= kWorkPerState * met_;
     }
 
     void make_room(StateId state);
 
     ReachableReads reads_;
     SegmentedArray<StateId> known_;
-    std::vector<bool> is_reduced_;  // by StateId: it has been looked at, or another one has become it
-    std::uint64_t seen_ = 0;
-    std::uint64_t merged_ = 0;
+    std::uint64_t met_ = 0;     // states ...
+    std::uint64_t seen_ = 0;    // ... of which so many were looked at ...
+    std::uint64_t merged_ = 0;  // ... and so many became one that another had become
     StateBits kept_;
 };
 
