@@ -14,7 +14,7 @@ namespace relax {
 namespace {
 
 constexpr double kLeastShare = 1e-12;  // of an outcome's probability, that it keeps
-constexpr std::uint32_t kMostRounds = 32;
+constexpr std::uint32_t kMostExplorations = 32;
 constexpr double kViolation = 1e-11;  // of a worth, or of 1: by how much it may be above that of a decision
 
 class ChordFinder {
@@ -219,7 +219,7 @@ std::optional<Chord> chord_below(PlanningSource& source, PolicySearch& search, c
         const std::optional<Chord> found = finder.find(search.root());
         const bool is_enough =
             found && found->at_low >= prices.enough.at_low && found->at_high >= prices.enough.at_high;
-        if (is_enough || finder.met_open().empty() || round == kMostRounds) {
+        if (is_enough || finder.met_open().empty() || round == kMostExplorations) {
             return found;
         }
         search.explore_from(finder.met_open());
