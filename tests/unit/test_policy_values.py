@@ -8,6 +8,7 @@ from collections import defaultdict
 import pytest
 from hypothesis import given, settings
 
+import statehtn
 from statehtn.errors import InputError
 from statehtn.model import CostDistribution, Step
 from statehtn.model.cost.infinite import InfiniteMean
@@ -183,3 +184,26 @@ def _followed(graph: PolicyGraph) -> tuple[dict[float, float], dict[float, float
                     after[flat.successors[branch], spent + cost] += mass * flat.probabilities[branch] * p
         masses = {key: mass for key, mass in after.items() if mass > 1e-14}
     return done, failed, math.fsum(masses.values())
+
+
+def test_steep_exponentials_of_a_loop_are_infinite_where_numbers_differ_by_orders_of_magnitude() -> None:
+    """A negative number of a solution looked like a rounding error beside the largest one, and the mean finite."""
+    text = """(define (domain d) (:predicates (p) (q))
+      (:task t :parameters ())
+      (:method done :parameters () :task (t) :precondition (not (p)) :subtasks ())
+      (:method again :parameters () :task (t) :ordered-subtasks (and (a) (t)))
+      (:action a :parameters () :effect (and (increase (total-cost) 1)
+        (probabilistic 0.5 (and (p) (probabilistic 0.4 (increase (total-cost) 2) 0.6 (increase (total-cost) 4))) 0.5 ())
+        (probabilistic 0.6 (and (q) (probabilistic 0.1 (increase (total-cost) 1) 0.9 (increase (total-cost) 0)))
+          0.4 (not (p))))))"""
+    problem = statehtn.read_hddl_text(
+        text, "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (a) (a) (t))) (:init (p)))"
+    )
+    found = statehtn.policy(problem, objective="evar 0.9")
+    assert found.policy is not None
+    law = found.policy.cost_distribution()
+    for slope in (0.1, 1, 5, 10, 15.6, 22.5, 25.5, 28.8, 46.9, 53.0, 110.4, 1000):
+        with pytest.raises(InfiniteMean):
+            law.exponential_mean(slope)
+    assert found.value == pytest.approx(70.6, abs=0.1)
+    assert found.value == pytest.approx(law.evar(0.9))

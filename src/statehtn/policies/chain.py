@@ -19,6 +19,8 @@ NEARLY_NEUTRAL = 1e-3
 LARGEST_BELOW_1 = math.nextafter(1.0, 0.0)
 ROUNDING = 1e-9
 """Of solutions relative to their largest: what is less than nothing by more than that has no meaning."""
+RESIDUAL = 1e-6
+"""Of each number of a solution: by so much it may miss its equation."""
 
 
 class Chain:
@@ -271,8 +273,10 @@ class Chain:
                 for b in flat.branches(node)
                 if b in factors
             ]
-            solved = solution(matrix, [shares[node] for node in component], len(component), self.is_large)
-            if not all(math.isfinite(u) for u in solved) or min(solved) < -ROUNDING * max(map(abs, solved)):
+            added = [shares[node] for node in component]
+            solved = solution(matrix, added, len(component), self.is_large)
+            is_none = not all(map(math.isfinite, solved)) or min(solved) < -ROUNDING * max(map(abs, solved))
+            if is_none or (slope > 0 and not _is_positive_solution(matrix, added, solved)):
                 solved = None
         for place, node in enumerate(component):
             if solved is None:
@@ -298,3 +302,17 @@ class Chain:
                     parts.append(weights[branch] * values[other])
             added.append(math.inf if math.inf in parts else math.fsum(parts))
         return matrix, added
+
+
+def _is_positive_solution(
+    matrix: Sequence[tuple[int, int, float]], added: Sequence[float], solved: Sequence[float]
+) -> bool:
+    """Tell whether each number is positive and solves its own equation.
+
+    Only then the spectral radius is at most 1 (Collatz and Wielandt). Beside numbers that are larger by many orders of
+    magnitude, a negative one would look like a rounding error.
+    """
+    sums = list(added)
+    for row, column, weight in matrix:
+        sums[row] += weight * solved[column]
+    return all(u > 0 and abs(u - right) <= RESIDUAL * u for u, right in zip(solved, sums, strict=True))
