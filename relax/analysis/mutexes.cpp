@@ -122,9 +122,7 @@ bool Mutexes::execute(const GroundProblem& problem, ActionId action, std::span<c
     made_.clear();
     beside_ = reached_;
     for (const Index index : needed) {
-        for (std::size_t word = 0; word < words_; ++word) {
-            beside_[word] &= row(index)[word];
-        }
+        keep_common(beside_, row(index));
     }
     if (!std::ranges::all_of(needed, [this](Index index) { return has_bit(beside_, index); })) {
         return false;

@@ -4,7 +4,6 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,6 +18,7 @@
 #include "id_caster.hpp"
 #include "node_contents.hpp"
 #include "python_limits.hpp"
+#include "relax/base/bits.hpp"
 #include "relax/policies/cut_source.hpp"
 #include "relax/policies/network_source.hpp"
 #include "relax/policies/policy_chord.hpp"
@@ -49,14 +49,16 @@ class PolicyRun {
 public:
     PolicyRun(const relax::PricedProblem& priced, const relax::PolicySearchOptions& options, Amounts probabilities,
               const std::vector<bool>& free_actions, const relax::SeenCosts& seen, bool only_done_runs_pay,
-              bool follow_forced)
+              bool follow_forced, bool forget_unreachable)
         : priced_(priced), options_(options), probabilities_(std::move(probabilities)), follows_forced_(follow_forced) {
         const auto& problem = priced.problem;
         check_entries(problem, free_actions, seen);
         if (probabilities_.size() != problem.action_count()) {
             throw std::invalid_argument("there must be one probability for each action");
         }
-        progression_.emplace(problem, free_actions, seen, relax::PolicyOptions{{}, only_done_runs_pay}, limits_);
+        relax::PolicyOptions how{{}, only_done_runs_pay};
+        how.forget_unreachable = forget_unreachable;
+        progression_.emplace(problem, free_actions, seen, how, limits_);
     }
 
     void take_amounts(const Amounts& actions, const Amounts& parts, const Amounts& costs, const Amounts& part_costs,
@@ -207,7 +209,7 @@ public:
         const relax::StateId state = source_->nodes().state(pair);
         relax::StateBits known = progression_->facts_that_matter(state, source_->nodes().network(pair));
         relax::StateBits holding = known;
-        std::ranges::transform(holding, progression_->states()[state], holding.begin(), std::bit_and());
+        relax::keep_common(holding, progression_->states()[state]);
         return {facts_in(holding), facts_in(known)};
     }
     std::vector<relax::TaskId> tasks(std::uint32_t node) { return ordered(node).tasks; }
@@ -280,13 +282,13 @@ void bind_policy_search(nb::module_& module) {
             "__init__",
             [](PolicyRun* self, const relax::PricedProblem& priced, const relax::PolicySearchOptions& options,
                Amounts probabilities, const std::vector<bool>& free_actions, std::vector<bool> seen_actions,
-               std::vector<bool> seen_parts, bool only_done_runs_pay, bool follow_forced) {
-                new (self)
-                    PolicyRun(priced, options, std::move(probabilities), free_actions,
-                              {std::move(seen_actions), std::move(seen_parts)}, only_done_runs_pay, follow_forced);
+               std::vector<bool> seen_parts, bool only_done_runs_pay, bool follow_forced, bool forget_unreachable) {
+                new (self) PolicyRun(priced, options, std::move(probabilities), free_actions,
+                                     {std::move(seen_actions), std::move(seen_parts)}, only_done_runs_pay,
+                                     follow_forced, forget_unreachable);
             },
             "priced"_a, "options"_a, "probabilities"_a, "free_actions"_a, "seen_actions"_a, "seen_parts"_a,
-            "only_done_runs_pay"_a, "follow_forced"_a = true, nb::keep_alive<1, 2>())
+            "only_done_runs_pay"_a, "follow_forced"_a = true, "forget_unreachable"_a = true, nb::keep_alive<1, 2>())
         .def("take_amounts", &PolicyRun::take_amounts, "actions"_a, "parts"_a, "costs"_a, "part_costs"_a, "stop"_a,
              "unit"_a, "heuristic"_a)
         .def("take_laws", &PolicyRun::take_laws, "laws"_a, "means"_a, "units_per_step"_a, "of_left"_a, "gain"_a,

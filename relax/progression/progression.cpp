@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -217,11 +216,8 @@ Successor Progression::execute(StateId state, NetworkId network, const Occurrenc
 // Returns the state of the facts in `next_`, as far as they matter to the network.
 StateId Progression::keep_relevant(NetworkId network) {
     if (relevant_facts_) {
-        const auto relevant = relevant_facts_->of(*networks_, network);
+        keep_common(next_, relevant_facts_->of(*networks_, network));
         work_ += networks_->are_totally_ordered() ? 0 : networks_->size(network);
-        for (std::size_t word = 0; word < next_.size(); ++word) {
-            next_[word] &= relevant[word];
-        }
     }
     const StateId state = states_.intern(next_);
     return reduced_states_ ? reduced_states_->of(state, states_) : state;
@@ -233,11 +229,10 @@ StateBits Progression::facts_that_matter(StateId state, NetworkId network) {
         set_bit(facts, fact);
     }
     if (relevant_facts_) {
-        std::ranges::transform(facts, relevant_facts_->of(*networks_, network), facts.begin(), std::bit_and());
+        keep_common(facts, relevant_facts_->of(*networks_, network));
     }
     if (reduced_states_) {
-        const auto others = reduced_states_->facts_that_matter(states_[state]);
-        std::ranges::transform(facts, others, facts.begin(), std::bit_and());
+        keep_common(facts, reduced_states_->facts_that_matter(states_[state]));
     }
     return facts;
 }

@@ -67,11 +67,8 @@ StateId ReducedStates::of(StateId state, StateRegistry& states) {
     StateId reduced = state;
     if (is_worth_looking()) {
         const auto facts = states[state];
-        const auto matter = reads_.of(facts);
         kept_.assign(facts.begin(), facts.end());
-        for (std::size_t word = 0; word < kept_.size(); ++word) {
-            kept_[word] &= matter[word];
-        }
+        keep_common(kept_, reads_.of(facts));
         reduced = states.intern(kept_);
         ++seen_;
         merged_ += reduced < known_.size() && reduced != state ? 1 : 0;  // another state had become this one

@@ -828,6 +828,7 @@ class PolicyRun:
         seen_parts: Sequence[bool],
         only_done_runs_pay: bool,
         follow_forced: bool = True,
+        forget_unreachable: bool = True,
     ) -> None: ...
     def take_amounts(
         self,

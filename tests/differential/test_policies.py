@@ -207,19 +207,20 @@ def test_neutral_and_exponential(orders: tuple[str, ...], data: st.DataObject) -
     check(data.draw(problems(orders)), data.draw(PLAIN), data.draw(FAILURE_COSTS))
 
 
+@pytest.mark.parametrize("left_out", ["follow_forced", "forget_unreachable"])
 @SHARE
 @given(data=st.data())
-def test_decisions_that_go_on_through_what_must_come(data: st.DataObject) -> None:
-    """Left out, every step is a node; values are the same."""
+def test_refinements_keep_the_values(left_out: str, data: st.DataObject) -> None:
+    """Left out, there may be more nodes; values are the same."""
     problem = data.draw(problems(("total", "none", "partial")))
     family = st.one_of(PLAIN, st.just("success"), MEMORY["deadline"], MEMORY["one-switch"])
     text, price = data.draw(family), data.draw(FAILURE_COSTS)
     price = None if text == "success" else price
-    followed, stepwise = (search(problem, text, price, PolicySwitches(follow_forced=on)) for on in (True, False))
-    assert stepwise.status is followed.status
-    if followed.value is not None:
-        assert stepwise.value == pytest.approx(followed.value, **CLOSE)
-        must_be_a_run(problem, stepwise, 0)
+    refined, plain = (search(problem, text, price, PolicySwitches(**{left_out: on})) for on in (True, False))
+    assert plain.status is refined.status
+    if refined.value is not None:
+        assert plain.value == pytest.approx(refined.value, **CLOSE)
+        must_be_a_run(problem, plain, 0)
 
 
 @pytest.mark.parametrize("orders", ORDERS)

@@ -5,6 +5,12 @@ from __future__ import annotations
 import pytest
 
 import statehtn
+from statehtn.core.switches import PolicySwitches
+from statehtn.limits import Limits
+from statehtn.policies.run import find_policy
+from statehtn.policies.settings import PolicySettings
+from statehtn.risk import Neutral
+from statehtn.session import Session
 from tests.benchmarks.policy_cases import consensus
 
 DOMAIN = """(define (domain d)
@@ -95,6 +101,16 @@ def test_what_is_out_of_reach_is_forgotten() -> None:
     assert found.policy is not None
     for node in found.policy.graph.nodes:
         assert found.policy.decide(node.facts, found.policy.network_of(node)) == (node.decision or node.end)
+
+
+def test_where_nothing_is_forgotten_there_are_more_states() -> None:
+    model = statehtn.read_hddl_text(TIRES, tires(2))
+    plain = find_policy(
+        Session(model), PolicySettings(Neutral(), switches=PolicySwitches(forget_unreachable=False)), Limits()
+    )
+    found = statehtn.policy(model)
+    assert plain.value == pytest.approx(found.value)
+    assert (plain.statistics.expanded or 0) > 5 * (found.statistics.expanded or 0)
 
 
 def test_decisions_are_right_in_states_with_facts_that_are_forgotten() -> None:

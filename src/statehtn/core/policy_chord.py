@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import STOPPED
 from statehtn.core.policy_problem import PolicyProblem
 from statehtn.limits import LimitReached, Limits
+from statehtn.model.cost.by_law import by_law
 from statehtn.model.cost.law import CostLaw
 
 Line = tuple[float, float]
@@ -50,17 +51,9 @@ class ExploredPolicies:
             InputError: a law has no line, as `line_of` says.
         """
         grounding = self.problem.grounding
-        actions, parts = _lines(grounding.laws, line_of), _lines(grounding.part_laws, line_of)
+        actions, parts = by_law(grounding.laws, line_of), by_law(grounding.part_laws, line_of)
         ends = [([line[end] for line in actions], [line[end] for line in parts]) for end in (0, 1)]
         stop, found = self.run.chord(ends[0], ends[1], low, high, touching, self.x, enough, *limits.left())
         if stop is not None:
             raise LimitReached(STOPPED[stop])
         return found
-
-
-def _lines(laws: Sequence[CostLaw], line_of: Callable[[CostLaw], Line]) -> list[Line]:
-    known: dict[int, Line] = {}
-    for law in laws:
-        if id(law) not in known:
-            known[id(law)] = line_of(law)
-    return [known[id(law)] for law in laws]

@@ -70,7 +70,8 @@ class PolicyProblem:
         """
         seen = uncertain_costs(self.grounding) if sees_costs else ([], [])
         by_action = self.probabilities, self.free_actions, *seen
-        return _relax.PolicyRun(handle, options, *by_action, only_done_runs_pay, self.switches.follow_forced)
+        switches = self.switches.follow_forced, self.switches.forget_unreachable
+        return _relax.PolicyRun(handle, options, *by_action, only_done_runs_pay, *switches)
 
 
 @dataclass(frozen=True, slots=True)

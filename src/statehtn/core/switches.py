@@ -26,6 +26,8 @@ class PolicySwitches:
 
     follow_forced: bool = True
     """Let decisions go on through all steps that must come after them."""
+    forget_unreachable: bool = True
+    """States keep only the facts that actions read which are still within reach."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,6 +9,7 @@ from statehtn.counted import likely
 from statehtn.display.table import Column, Table
 from statehtn.display.terminal import Summary, rendered
 from statehtn.display.words import COUNTS_ON, FAILURE, SUCCESS, Labelled, counted_on, number
+from statehtn.model.cost.by_law import by_law
 from statehtn.validation import Validation
 
 COSTS = (Column("cost"), Column("expected", is_number=True))
@@ -67,6 +68,4 @@ def _table(columns: Sequence[Column], rows: Sequence[Sequence[str]], validation:
 
 
 def _costs(validation: Validation) -> list[tuple[str, str]]:
-    laws = {id(law): law for law in validation.costs}  # long plans repeat them
-    texts = {key: (str(law), number(law.mean)) for key, law in laws.items()}
-    return [texts[id(law)] for law in validation.costs]
+    return by_law(validation.costs, lambda law: (str(law), number(law.mean)))  # long plans repeat them

@@ -10,9 +10,10 @@ import math
 from collections.abc import Collection, Sequence
 from functools import cached_property
 
+from statehtn.model.cost.by_law import by_law
 from statehtn.model.policy_graph import End, FlatPolicy
 from statehtn.policies.components import components
-from statehtn.policies.equations import MOST_DENSE, MUCH, by_law, log_sum, solution
+from statehtn.policies.equations import MOST_DENSE, MUCH, log_sum, solution
 
 NEARLY_NEUTRAL = 1e-3
 """Of a slope times the mean: below, an exponential is nearly a line."""

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from statehtn.errors import UsageError
-from statehtn.model.cost.law import CostLaw
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -68,15 +67,6 @@ def solution(
         warnings.simplefilter("ignore", MatrixRankWarning)
         found = spsolve(sparse.tocsc(), numpy.array(added))
     return [float(value) for value in found] if numpy.isfinite(found).all() else [math.inf] * count
-
-
-def by_law(laws: Sequence[CostLaw], price: Callable[[CostLaw], float]) -> list[float]:
-    """Return a number for each branch's law; few laws are many branches'."""
-    known: dict[int, float] = {}
-    for law in laws:
-        if id(law) not in known:
-            known[id(law)] = price(law)
-    return [known[id(law)] for law in laws]
 
 
 def log_sum(logs: Sequence[float]) -> float:

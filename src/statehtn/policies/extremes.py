@@ -5,9 +5,9 @@ from __future__ import annotations
 import heapq
 import math
 
+from statehtn.model.cost.by_law import by_law
 from statehtn.model.policy_graph import End
 from statehtn.policies.chain import Chain
-from statehtn.policies.equations import by_law
 
 
 def least_cost(chain: Chain, failure: float) -> float:

@@ -52,6 +52,13 @@ inline void unite(std::span<std::uint64_t> into, std::span<const std::uint64_t> 
     }
 }
 
+inline void keep_common(std::span<std::uint64_t> into, std::span<const std::uint64_t> other) {
+    assert(into.size() == other.size());
+    for (std::size_t word = 0; word < into.size(); ++word) {
+        into[word] &= other[word];
+    }
+}
+
 }  // namespace relax
 
 #endif
