@@ -54,6 +54,14 @@ def test_conditions_are_named_by_what_they_ask_for() -> None:
     assert following["tasks"][:2] == ["(condition (not (open)) (not (torn)))", "(pick)"]
 
 
+def test_a_goal_of_several_cases_is_named_by_what_it_asks_for() -> None:
+    problem = statehtn.read_hddl_text(DOMAIN, PROBLEM.replace("(:goal (open))", "(:goal (or (open) (not (dark))))"))
+    policy = statehtn.policy(problem).policy
+    assert policy is not None
+    named = {task for node in policy.to_dict()["nodes"] for task in node["tasks"]}
+    assert "(condition (or (open) (not (dark))))" in named
+
+
 def test_a_node_is_found_by_its_network() -> None:
     policy = statehtn.policy(statehtn.read_hddl_text(DOMAIN, PROBLEM)).policy
     assert policy is not None

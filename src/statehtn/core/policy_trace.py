@@ -126,21 +126,26 @@ class PolicyReader:
 
     def _is_of_the_domain(self, task: int) -> bool:
         """Tell whether an action or a compound task is in the domain, not only in the ground problem."""
-        grounding, handle = self.grounding, self.grounding.handle
+        return not self._is_condition(task) and " " not in self.grounding.task_name(self._schema(task))
+
+    def _is_condition(self, task: int) -> bool:
+        """Tell whether a task is a precondition action, or the choice of one of several cases of it."""
+        actions, schema = self.grounding.encoding.actions, self._schema(task)
+        return schema < len(actions) and actions[schema] is None
+
+    def _schema(self, task: int) -> int:
+        handle = self.grounding.handle
         if task < handle.action_count:
-            return grounding.encoding.actions[handle.action_schema[task]] is not None
-        return " " not in grounding.task_name(handle.compound_schema[task - handle.action_count])
+            return handle.action_schema[task]
+        return handle.compound_schema[task - handle.action_count]
 
     def _task(self, number: int) -> Step:
-        grounding, handle = self.grounding, self.grounding.handle
-        if number < handle.action_count:
-            schema, arguments = handle.action_schema[number], handle.action_arguments(number)
-        else:
-            compound = number - handle.action_count
-            schema, arguments = handle.compound_schema[compound], handle.compound_arguments(compound)
-        if schema < len(grounding.encoding.actions) and grounding.encoding.actions[schema] is None:
+        if self._is_condition(number):
             return Step(CONDITION, self._condition(number))
-        return Step(grounding.task_name(schema), grounding.objects(arguments))
+        grounding, handle = self.grounding, self.grounding.handle
+        compound = number - handle.action_count
+        arguments = handle.action_arguments(number) if compound < 0 else handle.compound_arguments(compound)
+        return Step(grounding.task_name(self._schema(number)), grounding.objects(arguments))
 
     def _condition(self, test: int) -> tuple[str, ...]:
         """Return what a precondition action, or the choice of one of several cases of it, asks for, as in HDDL.
