@@ -100,6 +100,34 @@ def chance_problems(draw: Draw, orders: tuple[str, ...] = ORDERS) -> Problem:
     return Problem("p", domain, network=network, initial_state=frozenset(initial), goal=goal)
 
 
+@st.composite
+def locked_problems(draw: Draw) -> Problem:
+    """A way of three actions, each of which needs what the one before makes, and keys that may be lost or found."""
+    doors, keys = [f"p{i}" for i in range(4)], ["k0", "k1", "k2"]
+    actions = {}
+    for number in range(between(draw, 4, 6)):
+        is_on_the_way = number < len(doors) - 1
+        needed = [doors[number] if is_on_the_way else pick(draw, doors)]
+        needed += [pick(draw, keys)] if chance(draw, 0.6) else []
+        made = Effect(Atom(doors[number + 1])) if is_on_the_way else lost_or_found(draw, doors[:2], keys)
+        outcomes = [Outcome(Number(Fraction("0.5")), (made,))]
+        if chance(draw, 0.7):
+            outcomes.append(Outcome(Number(Fraction("0.5")), (lost_or_found(draw, doors[:2], keys),)))
+        costs = (CostBlock(cost_branches(draw)),)
+        precondition = And(tuple(map(Atom, needed)))
+        actions[f"a{number}"] = Action(f"a{number}", (), precondition, (), costs, (OutcomeBlock(tuple(outcomes)),))
+    methods = {f"m-{name}": Method(f"m-{name}", (), "t", (), network_of([name, "t"], ((0, 1),))) for name in actions}
+    methods["done"] = Method("done", (), "t", (), TaskNetwork(), Atom(doors[-1]))
+    initial = frozenset((fact,) for fact in (doors[0], *keys) if fact == doors[0] or chance(draw, 0.7))
+    predicates = {fact: Signature(fact) for fact in (*doors, *keys)}
+    domain = Domain("locks", TypeHierarchy({}), {}, predicates, {}, {"t": Signature("t")}, actions, methods)
+    return Problem("p", domain, network=network_of(["t"], ()), initial_state=initial)
+
+
+def lost_or_found(draw: Draw, doors: list[str], keys: list[str]) -> Effect:
+    return Effect(Atom(pick(draw, [*doors, *keys, *keys])), chance(draw, 0.3))
+
+
 def atom_of(formula: Formula) -> Effect:
     """The effect that makes a literal true, or the first one of several."""
     first = formula.operands[0] if isinstance(formula, And) else formula

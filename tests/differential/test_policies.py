@@ -37,7 +37,7 @@ from tests.naive_outcomes import Way, ways
 from tests.naive_semantics import Semantics, State
 from tests.policy_values import best_answer, graph_of_policy
 from tests.random_graphs import ALPHAS, LEVELS
-from tests.random_outcomes import chance_problems, wide_problems
+from tests.random_outcomes import chance_problems, locked_problems, wide_problems
 from tests.shares import share_of_examples
 
 SHARE = share_of_examples(2)
@@ -207,12 +207,18 @@ def test_neutral_and_exponential(orders: tuple[str, ...], data: st.DataObject) -
     check(data.draw(problems(orders)), data.draw(PLAIN), data.draw(FAILURE_COSTS))
 
 
+@SHARE
+@given(problem=locked_problems(), text=PLAIN, price=FAILURE_COSTS)
+def test_parts_out_of_reach(problem: Problem, text: str, price: FailureCost) -> None:
+    check(problem, text, price)
+
+
 @pytest.mark.parametrize("left_out", ["follow_forced", "forget_unreachable"])
 @SHARE
 @given(data=st.data())
 def test_refinements_keep_the_values(left_out: str, data: st.DataObject) -> None:
     """Left out, there may be more nodes; values are the same."""
-    problem = data.draw(problems(("total", "none", "partial")))
+    problem = data.draw(st.one_of(problems(("total", "none", "partial")), locked_problems()))
     family = st.one_of(PLAIN, st.just("success"), MEMORY["deadline"], MEMORY["one-switch"])
     text, price = data.draw(family), data.draw(FAILURE_COSTS)
     price = None if text == "success" else price

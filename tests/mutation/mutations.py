@@ -18,6 +18,7 @@ PLAN_BASED = "tests/differential/test_plan_based.py"
 WALKS = "tests/differential/test_merged_sequences.py"
 RECURSION = "tests/differential/test_forced_recursion.py"
 POLICY_PROGRESSION = "tests/differential/test_policy_progression.py"
+POLICIES = "tests/differential/test_policies.py"
 POLICY_CHORD = "tests/differential/test_policy_chord.py"
 GROUND_OUTCOMES = "tests/property/test_grounding_outcomes.py"
 PRECISION = "tests/differential/test_optimal_is_optimal.py"
@@ -72,7 +73,7 @@ MUTATIONS = [
         "relax/progression/reachable_reads.cpp",
         "for (const FactId fact : problem_.effect_adds[effect]) {",
         "for (const FactId fact : problem_.effect_conditions[effect]) {",
-        (POLICY_PROGRESSION,),
+        (f"{POLICIES}::test_parts_out_of_reach",),
     ),
     Mutation(
         "forgotten facts: conditions of costs are not read",
