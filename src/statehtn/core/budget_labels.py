@@ -15,6 +15,9 @@ from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
 from statehtn.risk.keep import Keep
 
+MOST_STEPS = 2**1000
+"""In a budget: a float in the core, and more than any plan costs."""
+
 
 class BudgetLabels(Labels):
     """The labels of an objective, and laws on a grid that say whether plans keep budgets.
@@ -39,7 +42,8 @@ class BudgetLabels(Labels):
         """That of the objective, of plans that keep the budgets on the present grid."""
         grid = self._grid
         budgets = [
-            (math.floor(Fraction(repr(budget.budget)) / grid.grid.step), budget.probability) for budget in self._keep
+            (min(math.floor(Fraction(repr(budget.budget)) / grid.grid.step), MOST_STEPS), budget.probability)
+            for budget in self._keep
         ]
         return _relax.Budgets(self._labels.valuation, grid.least, grid.costs, budgets, self._options)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 
 import statehtn._relax as _relax
@@ -63,9 +64,10 @@ class MeanDeviationLabels(FiniteLabels):
     def _next_weights(self, points: Sequence[Sequence[float]], values: Sequence[float]) -> list[float]:
         """Return the chord of the level of the best plan, from no variance to the least mean.
 
-        The value is concave: no point above the chord is better. So if no plan is below it, that plan is the best.
+        The value is concave: no point above the chord is better. So if no plan is below it, that plan is the best. A
+        chord that is too steep for a float is as good as upright.
         """
         room = min(values) - min(mean for mean, _ in points)
         if self._weight == 0 or room <= 0:
             return [1.0, 0.0]
-        return [1.0, self._weight * (self._weight / room)]
+        return [1.0, min(self._weight * (self._weight / room), sys.float_info.max)]

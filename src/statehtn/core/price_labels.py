@@ -9,7 +9,7 @@ import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.labels import Labels
 from statehtn.core.pricing import price
-from statehtn.core.scale import Scale
+from statehtn.core.scale import MOST_BITS, MOST_UNITS, Scale
 from statehtn.limits import Limits
 from statehtn.risk import AdditiveObjective
 
@@ -48,5 +48,8 @@ class PriceLabels(Labels):
         return self._prices.scale.cost(worth)
 
     def worth_of(self, value: float) -> int:
-        """Return a cost in units, rounded up."""
-        return math.ceil(math.ldexp(value, self._prices.scale.exponent))
+        """Return a cost in units, rounded up; at most what the core can hold."""
+        exponent = self._prices.scale.exponent
+        if math.frexp(value)[1] + exponent > MOST_BITS:
+            return MOST_UNITS if value > 0 else -MOST_UNITS
+        return math.ceil(math.ldexp(value, exponent))

@@ -31,6 +31,8 @@ Since `ln 1/p < 709` in floating point, 2^-40 is more than all of it; the worst 
 """
 
 
+LARGEST_PRICE = 1e290
+"""Of an action: a plan of a billion billion steps still has a finite sum."""
 IMPOSSIBLE = 1e9
 """The price of counting on an outcome that cannot come: no plan with another way does."""
 
@@ -184,9 +186,14 @@ def risk_cost(law: CostLaw, objective: Pricing) -> RiskCost:
     """Return the price of a cost to an agent.
 
     Raises:
-        InputError: it is infinite, or cannot be computed.
+        InputError: it is infinite, too large, or cannot be computed.
     """
     cost = objective.risk_cost(law)
+    if not cost <= LARGEST_PRICE:
+        raise InputError(
+            f"{law}: its price for '{objective}' is {cost:g}, and numbers above {LARGEST_PRICE:g} become too large "
+            f"when the prices of a plan are added up; state costs in a larger unit, or take a smaller parameter"
+        )
     if law.least == law.most:
         return RiskCost(cost, cost)
     return RiskCost(cost, max(0.0, cost - ROUNDING * cost - _error(law, objective)))

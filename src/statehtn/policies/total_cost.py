@@ -99,7 +99,7 @@ class PolicyCost(CostLaw):
         if self.infinite:
             return math.inf
         mean = self.mean
-        return math.sqrt(math.fsum(probability * (cost - mean) ** 2 for probability, cost in self.outcomes))
+        return math.hypot(*(math.sqrt(probability) * (cost - mean) for probability, cost in self.outcomes))
 
     @cached_property
     def least(self) -> float:

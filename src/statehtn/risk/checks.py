@@ -8,6 +8,9 @@ from statehtn.errors import InputError, UsageError
 from statehtn.expected import number
 from statehtn.model.cost.law import CostLaw
 
+MOST_WEIGHT = 1e100
+"""Of a risk beside the mean: its square times a variance is still a number."""
+
 
 def finite(value: object, what: str) -> float:
     """Return a parameter that is a finite number.
@@ -45,6 +48,21 @@ def not_negative(value: object, what: str) -> float:
     return given + 0.0  # no negative zero
 
 
+def weight(value: object, what: str) -> float:
+    """Return a weight of a risk: a number from 0 to `MOST_WEIGHT`.
+
+    Raises:
+        UsageError: it is none.
+    """
+    given = not_negative(value, what)
+    if given > MOST_WEIGHT:
+        raise UsageError(
+            f"{what} must be at most {MOST_WEIGHT:g}, found {given:g}; under any weight of that size plans are "
+            f"compared by their risk alone"
+        )
+    return given
+
+
 def inner_level(value: object) -> float:
     """Return a level: a probability above 0 and below 1.
 
@@ -70,6 +88,8 @@ def finite_measure(value: float, what: str, law: CostLaw) -> float:
     """
     if math.isfinite(value):
         return value
+    if math.isfinite(law.standard_deviation):
+        raise InputError(f"{law}: {what} is too large for a floating-point number; state costs in a larger unit")
     raise InputError(
         f"{law}: {what} is infinite, and so is what it is worth; bound the cost (a truncated law, samples)"
     )

@@ -100,14 +100,16 @@ class Exponential:
         except OverflowError:
             return -math.inf
 
-    def log10_expected_utility(self, risk_cost: float) -> float:
+    def log10_expected_utility(self, risk_cost: float) -> float | None:
         """Return `log10 EU` for a seeking and `-log10 |EU|` for an averse agent, as the paper prints it.
 
-        The size of EU is `e^(alpha K) / alpha` or `e^(-alpha K) / alpha`, where `K` is the plan's risk cost.
+        The size of EU is `e^(alpha K) / alpha` or `e^(-alpha K) / alpha`, where `K` is the plan's risk cost. None where
+        the logarithm itself is too large for a float.
         """
         log10_slope = self.alpha * number(risk_cost, "a risk cost") / math.log(10)
         log10_alpha = math.log10(self.alpha)
-        return log10_alpha - log10_slope if self.attitude == Attitude.AVERSE else -log10_alpha - log10_slope
+        log10 = log10_alpha - log10_slope if self.attitude == Attitude.AVERSE else -log10_alpha - log10_slope
+        return log10 if math.isfinite(log10) else None
 
     def expected_utility_text(self, risk_cost: float, digits: int = DIGITS) -> str:
         """Return the expected utility of a plan of that risk cost, such as `-42514703.23` or `2.607706e-49`.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_law
-from statehtn.risk.checks import finite_measure, not_negative, text_of
+from statehtn.risk.checks import finite_measure, text_of, weight
 from statehtn.risk.neutral import expected_cost
 from statehtn.risk.objective import ValueUnit
 
@@ -21,10 +21,10 @@ class MeanDeviation:
     Source: Markowitz, *Portfolio selection*, 1952, with costs for losses; the risk measure of PERT.
 
     Args:
-        weight: `L`, at least 0, without unit.
+        weight: `L`, from 0 to 1e100, without unit.
 
     Raises:
-        UsageError: the weight is negative, or not finite.
+        UsageError: the weight is out of its range.
     """
 
     weight: float
@@ -33,7 +33,7 @@ class MeanDeviation:
     concave = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "weight", not_negative(self.weight, "the weight of the deviation"))
+        object.__setattr__(self, "weight", weight(self.weight, "the weight of the deviation"))
 
     @property
     def monotone(self) -> bool:
@@ -44,12 +44,13 @@ class MeanDeviation:
         """Return `E C + L sd(C)`.
 
         Raises:
-            InputError: the standard deviation is infinite.
+            InputError: the standard deviation is infinite, or too large for a float.
         """
         mean = expected_cost(expect_law(law))
         if self.weight == 0:
             return mean
-        return mean + self.weight * finite_measure(law.standard_deviation, "its standard deviation", law)
+        deviation = finite_measure(law.standard_deviation, "its standard deviation", law)
+        return finite_measure(mean + self.weight * deviation, "its weighted deviation", law)
 
     def __str__(self) -> str:
         return f"mean-deviation {text_of(self.weight)}"

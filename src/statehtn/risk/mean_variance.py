@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.expect import expect_law
-from statehtn.risk.checks import finite_measure, not_negative, text_of
+from statehtn.risk.checks import finite_measure, text_of, weight
 from statehtn.risk.neutral import expected_cost
 from statehtn.risk.objective import ValueUnit
 from statehtn.risk.utility import FunctionType, PlanUtility
@@ -22,10 +22,10 @@ class MeanVariance:
     Source: Markowitz, *Portfolio selection*, 1952, with costs for losses.
 
     Args:
-        weight: `L`, at least 0, per unit of cost.
+        weight: `L`, from 0 to 1e100, per unit of cost.
 
     Raises:
-        UsageError: the weight is negative, or not finite.
+        UsageError: the weight is out of its range.
     """
 
     weight: float
@@ -37,7 +37,7 @@ class MeanVariance:
     plan_utility = PlanUtility.SUM
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "weight", not_negative(self.weight, "the weight of the variance"))
+        object.__setattr__(self, "weight", weight(self.weight, "the weight of the variance"))
 
     @property
     def monotone(self) -> bool:
@@ -48,10 +48,13 @@ class MeanVariance:
         """Return the price of a cost, `E C + L Var C`.
 
         Raises:
-            InputError: the variance is infinite.
+            InputError: the variance is infinite, or too large for a float.
         """
         mean = expected_cost(expect_law(law))
-        return mean + self.weight * finite_measure(law.variance, "its variance", law) if self.weight > 0 else mean
+        if self.weight == 0:
+            return mean
+        variance = finite_measure(law.variance, "its variance", law)
+        return finite_measure(mean + self.weight * variance, "its weighted variance", law)
 
     def value(self, law: CostLaw) -> float:
         """Return `E C + L Var C`; see `risk_cost`."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ from statehtn.risk.objective import ValueUnit
 from statehtn.risk.total_utility import TotalUtility
 
 LEAST_POINTS = 2
+SMALLER = "state utilities in a larger unit"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,14 +69,25 @@ class Piecewise(TotalUtility):
 
         Of a continuous law it is taken from the mean and from the expected overruns of the points, at which the slope
         changes.
+
+        Raises:
+            UsageError: it is too large for a float.
         """
         if isinstance(expect_law(law), CostDistribution):
-            return 0.0 - law.expectation(self.utility)
+            return 0.0 - law.expectation(self._finite_utility)
         (first, utility), slopes = self.points[0], self.slopes
         expected = utility + slopes[0] * (law.mean - first)
         for (cost, _), (before, after) in zip(self.points[1:-1], pairwise(slopes), strict=True):
             expected += (after - before) * law.expected_overrun(cost)
+        if not math.isfinite(expected):
+            raise UsageError(f"{law}: its expected utility is too large for a floating-point number; {SMALLER}")
         return 0.0 - expected
+
+    def _finite_utility(self, cost: float) -> float:
+        utility = self.utility(cost)
+        if not math.isfinite(utility):
+            raise UsageError(f"the utility of a cost of {cost:g} is too large for a floating-point number; {SMALLER}")
+        return utility
 
     def certainty_equivalent(self, law: CostLaw) -> float | None:
         """Return the certain cost of the same utility; None where the utility does not fall strictly there."""
@@ -102,6 +115,11 @@ def _checked(given: Iterable[tuple[float, float]]) -> tuple[tuple[float, float],
             raise UsageError(
                 f"a utility of the cost must not rise, found {text_of(points[-1][1])} for {text_of(points[-1][0])} and "
                 f"{text_of(utility)} for {text_of(cost)}; utilities are maximised, costs positive"
+            )
+        if points and not math.isfinite((utility - points[-1][1]) / (cost - points[-1][0])):
+            raise UsageError(
+                f"a utility falls too steeply for floating-point numbers, from {text_of(points[-1][1])} for "
+                f"{text_of(points[-1][0])} to {text_of(utility)} for {text_of(cost)}; {SMALLER}"
             )
         points.append((cost, utility))
     if len(points) < LEAST_POINTS:

@@ -15,6 +15,7 @@ from statehtn.errors import InputError, UsageError
 from statehtn.expected import expect, number, shown, shown_number, whole_number
 from statehtn.model.cost.law import PLOT_POINTS, CostLaw, checked_function, checked_probability
 from statehtn.model.cost.numerics.exponential_mean import exponential_mean_of
+from statehtn.model.cost.numerics.sums import sum_of_positive
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -144,13 +145,14 @@ class CostDistribution(CostLaw):
     @property
     def standard_deviation(self) -> float:
         """The standard deviation of the cost, in the domain's unit."""
-        return math.sqrt(self.variance)
+        mean = self.mean
+        return math.hypot(*(math.sqrt(probability) * (cost - mean) for probability, cost in self.outcomes))
 
     @property
     def variance(self) -> float:
-        """The variance of the cost, in the square of the domain's unit."""
+        """The variance of the cost, in the square of the domain's unit; infinite where a float cannot hold it."""
         mean = self.mean
-        return math.fsum(probability * (cost - mean) ** 2 for probability, cost in self.outcomes)
+        return sum_of_positive(probability * (cost - mean) * (cost - mean) for probability, cost in self.outcomes)
 
     @property
     def least(self) -> float:

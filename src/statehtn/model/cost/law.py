@@ -43,7 +43,7 @@ class CostLaw(ABC):
     @property
     def variance(self) -> float:
         """The variance of the cost, in the square of the unit; may be infinite."""
-        return self.standard_deviation**2
+        return self.standard_deviation * self.standard_deviation
 
     @property
     @abstractmethod

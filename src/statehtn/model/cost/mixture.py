@@ -57,8 +57,10 @@ class Mixed(CostLaw):
     def standard_deviation(self) -> float:
         """The standard deviation of the cost."""
         mean = self.mean
-        variance = self._mean_of(lambda law: law.standard_deviation**2 + (law.mean - mean) ** 2)
-        return math.sqrt(variance)
+        weighted = ((math.sqrt(weight), law) for weight, law in zip(self.weights, self.laws, strict=True))
+        return math.hypot(
+            *(x for root, law in weighted for x in (root * law.standard_deviation, root * (law.mean - mean)))
+        )
 
     @property
     def least(self) -> float:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import MOST_DRAWN, PLOT_POINTS, CostLaw
+from statehtn.model.cost.numerics.sums import sum_of_positive
 from statehtn.model.cost.total import exact_total, grid_total
 
 if TYPE_CHECKING:
@@ -56,8 +57,8 @@ class CostSum(CostLaw):
 
     @property
     def variance(self) -> float:
-        """The variance of the cost, the sum of those of the parts."""
-        return math.fsum(part.variance for part in self.parts)
+        """The variance of the cost, the sum of those of the parts; infinite where a float cannot hold it."""
+        return sum_of_positive(part.variance for part in self.parts)
 
     @property
     def least(self) -> float:

@@ -1,0 +1,120 @@
+"""Weights and costs near the ends of floating point: an answer that is right, or one line that says what to do."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+import statehtn
+from statehtn import CostDistribution, InputError, Problem, StateHtnError, Status, UsageError
+from statehtn.model.cost.mixture import Mixture
+from statehtn.model.cost.sum import CostSum
+
+DOMAIN = """(define (domain d) (:functions (total-cost)) (:task go :parameters ())
+  (:method risky :parameters () :task (go) :ordered-subtasks (and (dare)))
+  (:method safe :parameters () :task (go) :ordered-subtasks (and (walk) (walk)))
+  (:action dare :parameters ()
+    :effect (probabilistic 0.5 (increase (total-cost) 1e{power}) 0.5 (increase (total-cost) 3e{power})))
+  (:action walk :parameters () :effect (increase (total-cost) 1.25e{power})))"""
+PROBLEM = "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (go))) (:init))"
+
+OBJECTIVES = [
+    "neutral",
+    "averse 0.1",
+    "averse 1e308",
+    "seeking 1e308",
+    "mean-variance 1",
+    "mean-variance 1e100",
+    "mean-deviation 1",
+    "mean-deviation 1e100",
+    "mean-deviation 1e-320",
+    "one-switch alpha=0.1 tradeoff=2 wealth=10",
+    "exponentials linear=1 0.1:2 -0.1:1",
+    "evar 0.9",
+    "deadline 2",
+    "overrun 2",
+    "piecewise 0:0 1:-1 2:-3",
+    "piecewise 0:0 1:-1e300",
+    "quantile 0.9",
+    "cvar 0.9",
+    "success-utility alpha=0.1",
+    "success-utility alpha=1e308",
+]
+
+
+def choice(power: int) -> Problem:
+    return statehtn.read_hddl_text(DOMAIN.format(power=power), PROBLEM)
+
+
+@pytest.mark.parametrize("keep", [[], ["3 0.4"], ["9e289 0.4"]])
+@pytest.mark.parametrize("power", [-200, 0, 160, 289])
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_every_objective_answers_or_says_what_to_do(objective: str, power: int, keep: list[str]) -> None:
+    try:
+        result = statehtn.plan(choice(power), objective=objective, keep=keep, time_limit=60)
+    except StateHtnError as error:
+        message = error.message
+    else:
+        message = ""
+    if message:
+        assert "in a larger unit" in message
+        return
+    assert result.status in (Status.OPTIMAL, Status.UNSOLVABLE)
+    assert (result.status is Status.UNSOLVABLE) == (power > 0 and keep == ["3 0.4"])
+    if result.value is not None:
+        assert math.isfinite(result.value)
+    json.dumps(result.to_dict(), allow_nan=False)
+
+
+@pytest.mark.parametrize("name", ["mean-deviation", "mean-variance"])
+@pytest.mark.parametrize("weight", ["1e101", "1e155", "1e307", "1e308"])
+def test_a_weight_beside_which_means_are_nothing_is_refused(name: str, weight: str) -> None:
+    with pytest.raises(UsageError, match=r"weight of the (deviation|variance) must be at most 1e\+100, found"):
+        statehtn.objective(f"{name} {weight}")
+
+
+@pytest.mark.parametrize("name", ["mean-deviation", "mean-variance"])
+def test_the_largest_weight_chooses_the_certain_plan(name: str) -> None:
+    result = statehtn.plan(choice(0), objective=f"{name} 1e100")
+    assert result.status is Status.OPTIMAL
+    assert result.value == 2.5
+
+
+@pytest.mark.parametrize("name", ["mean-deviation", "mean-variance"])
+def test_a_variance_that_is_too_large_is_said_with_its_action(name: str) -> None:
+    with pytest.raises(InputError, match=r"the cost of \(dare\): .* its variance is too large .* in a larger unit"):
+        statehtn.plan(choice(160), objective=f"{name} 1")
+
+
+def test_a_price_that_is_too_large_is_said_with_its_action() -> None:
+    with pytest.raises(InputError, match=r"the cost of \(dare\): .* its price for 'mean-variance 1e\+100' is 1e\+300"):
+        statehtn.plan(choice(100), objective="mean-variance 1e100")
+
+
+def test_deviations_are_right_where_variances_are_no_floats() -> None:
+    for size in (1e-200, 1.0, 1e160, 1e290):
+        law = CostDistribution.of([(0.5, size), (0.5, 3 * size)])
+        assert law.standard_deviation == pytest.approx(size, rel=1e-14)
+        assert CostSum((law, law)).standard_deviation == pytest.approx(size * math.sqrt(2), rel=1e-14)
+        mixture = Mixture((0.5, 0.5), (law, CostDistribution.certain(2 * size)))
+        assert mixture.standard_deviation == pytest.approx(size / math.sqrt(2), rel=1e-14)
+    assert CostDistribution.of([(0.5, 0.0), (0.5, 1e200)]).variance == math.inf
+    law = CostDistribution.of([(0.5, 0.0), (0.5, 2e154)])
+    assert law.variance == pytest.approx(1e308)
+    assert CostSum((law, law)).variance == math.inf
+
+
+def test_a_logarithm_that_is_no_float_is_left_out() -> None:
+    result = statehtn.plan(choice(0), objective="averse 1e308")
+    assert result.log10_expected_utility is None
+    assert result.risk_cost == 2.5
+
+
+def test_utilities_that_are_no_floats_are_refused() -> None:
+    for steep in ("piecewise 0:1e308 1e-300:-1e308", "piecewise 0:1e308 200:-1e308"):
+        with pytest.raises(UsageError, match="falls too steeply for floating-point numbers, from 1e"):
+            statehtn.objective(steep)
+    with pytest.raises(UsageError, match=r"the utility of a cost of 1e\+160 is too large .* in a larger unit"):
+        statehtn.plan(choice(160), objective="piecewise 0:0 1:-1e300")
