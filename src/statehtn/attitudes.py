@@ -79,8 +79,12 @@ class AttitudeComparison:
 
     @property
     def agents(self) -> tuple[str, ...]:
-        """The names of the agents, such as `averse 0.9` or `cvar 0.95`."""
-        return tuple(agent_name(result.objective) for result in self.results)
+        """The names of the agents, such as `averse 0.9` or `cvar 0.95`; those of the same name are numbered."""
+        names = [agent_name(result.objective) for result in self.results]
+        return tuple(
+            name if names.count(name) == 1 else f"{name} ({names[: index + 1].count(name)})"
+            for index, name in enumerate(names)
+        )
 
     @property
     def stopped(self) -> Status | None:

@@ -71,7 +71,7 @@ def _exponentials(objective: FiniteObjective, step: Fraction, _: float) -> _rela
 
 def _callable(objective: CallableUtility, step: Fraction, reach: float) -> _relax.LawObjective:
     count = min(MOST_TABLED, math.ceil(reach / float(step)) + 1)
-    table = [-objective.utility(float(step * number)) for number in range(count)]
+    table = [-utility for utility in objective.bounds(float(step * number) for number in range(count))]
     rising = list(accumulate(reversed(table), min))  # but for rounding the table is that
     return _relax.TabulatedDisutility(rising[::-1])
 

@@ -21,7 +21,8 @@ def bounded_disutility(
     """Return the disutility of what is left of the largest amount that a run may cost.
 
     Nothing is known of such a function but what it says: so it is asked for every amount up to that one, and checked
-    not to rise. Where a loop costs something there is no largest amount, and no bound beyond any.
+    not to rise. Where it fails it is bounded; a policy that may cost that much has no value, which is an error. Where a
+    loop costs something there is no largest amount, and no bound beyond any.
 
     Args:
         objective: the utility.
@@ -31,7 +32,7 @@ def bounded_disutility(
 
     Raises:
         UnsupportedError: there is no largest amount, or there are too many.
-        UsageError: the function rises, fails, or returns no finite number.
+        UsageError: the function rises, or fails for all amounts.
         LimitReached: a limit was reached.
     """
     step = grid.grid.step
@@ -48,6 +49,6 @@ def bounded_disutility(
             f"{shown_number(first + 1)} of them, more than {MOST_AMOUNTS}; round the costs"
         )
     with watched(limits):
-        utilities = objective.utilities(float(step * amount) for amount in range(first + 1))
+        utilities = objective.bounds(float(step * amount) for amount in range(first + 1))
     table = tuple(-utility for utility in reversed(utilities))
     return Disutility(first, table, beyond=table[0])
