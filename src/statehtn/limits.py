@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from types import FrameType
+from typing import TypeVar
 
 from statehtn.errors import UsageError
 from statehtn.expected import number
 from statehtn.model.status import Status
+
+T = TypeVar("T")
 
 
 class LimitReached(BaseException):
@@ -180,6 +183,23 @@ def watched(limits: Limits) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_REAL, *timer)
         signal.signal(signal.SIGALRM, handler)
     limits.check()
+
+
+def in_spite_of_interrupt(work: Callable[[], T], limits: Limits) -> tuple[T, bool]:
+    """Do something short without which what was found would be lost: Ctrl-C has it done anew, within another second.
+
+    Returns:
+        What the work returns, and whether it was interrupted.
+
+    Raises:
+        KeyboardInterrupt: it was interrupted twice.
+        LimitReached: another second was too little.
+    """
+    try:
+        return work(), False
+    except KeyboardInterrupt:
+        with watched(limits.with_grace(SECONDS_TO_READ, is_over=True)):
+            return work(), True
 
 
 LOSE_EXCEPTIONS = ("weakref.py", "_weakrefset.py")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 
 from statehtn.core.search import last_of
@@ -11,7 +12,7 @@ from statehtn.correlation import Correlation, value_as_if_independent
 from statehtn.counted import counted
 from statehtn.effort import Meter, Statistics
 from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, priced, validated_and_priced
-from statehtn.limits import ENDINGS, SECONDS_TO_READ, Limits, status_of
+from statehtn.limits import ENDINGS, SECONDS_TO_READ, Limits, status_of, watched
 from statehtn.log import log
 from statehtn.model.cost.unknown import MissingNumber
 from statehtn.model.problem import Problem
@@ -69,8 +70,12 @@ def solutions(
 
     for reached in _run(session, settings, search, limits):
         found = reached.found[0] if reached.found else None
-        largest, statistics = _largest(session, settings, limits, reached)
-        correlation, statistics = _correlation(session, settings, limits, replace(reached, statistics=statistics))
+        largest: tuple[float | None, ...] = ()
+        correlation: Correlation | None = None
+        statistics = reached.statistics
+        with suppress(*ENDINGS):  # what was found stays, also where this is not known
+            largest, statistics = _largest(session, settings, limits, reached)
+            correlation, statistics = _correlation(session, settings, limits, replace(reached, statistics=statistics))
         how = reached.status, settings, statistics, reached.stopped, reached.unread, largest
         result = Result(*how, found, reached.bound, correlation)
         _tell(result)
@@ -188,27 +193,27 @@ def _phases(
     traces: Sequence[object] = []
     found: tuple[FoundPlan, ...] = ()
     unpriced: MissingNumber | None = None
+    stop: Status | None = None
     while True:
         with meter.timed("search"):
             outcome = next(outcomes, None)
         if outcome is None:
             break
         meter.note(search=outcome.effort)
-        unread: Status | None = None
+        is_unread = outcome.unread
         if outcome.plans.results != traces:  # the last outcome mostly has the plan of the one before
             try:
                 with meter.timed("validate"):
-                    read, unread = _validated(session, problem, outcome, settings, limits)
+                    read, stop = _validated(session, problem, outcome, settings, limits)
             except MissingNumber as error:
                 unpriced = error  # a better plan may do without the number
                 continue
             traces, unpriced = outcome.plans.results, None
             found = read or found
-        stop = unread or (found[-1].unchecked if found else None)
+            is_unread = is_unread or len(read) < len(outcome.plans)
         status = outcome.status if stop is None else Status.SOLVED if found else stop
-        is_unread = outcome.unread or unread is not None
         yield Reached(status, outcome.stopped or stop, meter.read(), outcome, found, is_unread)
-        if unread is not None:
+        if stop is not None:
             break
     if unpriced is not None:
         raise unpriced
@@ -217,9 +222,10 @@ def _phases(
 def _validated(
     session: Session, problem: Problem, outcome: SearchOutcome, settings: Settings | TopSettings, limits: Limits
 ) -> tuple[tuple[FoundPlan, ...], Status | None]:
-    """Put plans together, validate and price them; return them, and what ended that before all were put together.
+    """Put plans together, validate and price them; return as many as were put together, and what ended that.
 
-    Once something has ended validation, the others come as the search has them.
+    Once something has ended validation, the others come as the search has them. What comes from outside ends no more
+    than that at first: the rest is put together within another second, unless the search was interrupted already.
 
     Raises:
         InternalError: a plan is wrong.
@@ -232,18 +238,24 @@ def _validated(
     stopped: Status | None = None
     try:
         for plan in outcome.plans.read(limits.with_grace(SECONDS_TO_READ, is_over=is_over)):
-            if stopped is None and plan in session.valid:  # a sweep finds the same plan again and again
+            if plan in session.valid:  # a sweep finds the same plan again and again
                 found.append(priced(session.valid[plan], *wanted))
-            elif stopped is None:
-                found.append(validated_and_priced(problem, plan, *wanted, left))
-                stopped = found[-1].unchecked
-                if stopped is None and len(session.valid) < MOST_VALID:
-                    session.valid[plan] = found[-1].plan
-            else:
-                found.append(not_validated(plan, *wanted, stopped))
+                continue
+            found.append(validated_and_priced(problem, plan, *wanted, left))
+            stopped = found[-1].unchecked
+            if stopped is not None:
+                break
+            if len(session.valid) < MOST_VALID:
+                session.valid[plan] = found[-1].plan
     except ENDINGS as ending:
-        return tuple(found), status_of(ending)
-    return tuple(found), None
+        stopped = status_of(ending)
+        if stopped is not Status.INTERRUPTED or outcome.stopped is Status.INTERRUPTED:
+            return tuple(found), stopped
+    if stopped is not None:
+        left = limits.with_grace(SECONDS_TO_READ, is_over=True)
+        with suppress(*ENDINGS), watched(left):
+            found += (not_validated(plan, *wanted, stopped) for plan in outcome.plans.read(left, len(found)))
+    return tuple(found), stopped
 
 
 def _last_alone(outcomes: Iterable[SearchOutcome]) -> Iterator[SearchOutcome]:

@@ -10,6 +10,7 @@ from statehtn.atlas import survey
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit, say
 from statehtn.counted import counted
 from statehtn.errors import UsageError, one_line
@@ -48,6 +49,7 @@ def run_atlas(options: argparse.Namespace) -> ExitCode:
             memory_limit=options.memory_limit,
             progress=progress.callback,
         )
+    let_finish()
     if options.json:
         emit(json.dumps(atlas.to_dict(), allow_nan=False))
     if output is not None:

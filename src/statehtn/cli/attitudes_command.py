@@ -9,6 +9,7 @@ from statehtn.attitudes import AttitudeComparison, compared_objectives
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.progress import ProgressLine
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit
 from statehtn.limits import LimitReached, Limits
 from statehtn.model.status import Status
@@ -44,6 +45,7 @@ def run_compare_attitudes(options: argparse.Namespace) -> ExitCode:
                 memory_limit=options.memory_limit,
                 progress=progress.callback,
             )
+    let_finish()
     emit(json.dumps(comparison.to_dict(), allow_nan=False) if options.json else str(comparison))
     codes = (EXIT_CODES[result.status] for result in comparison.results)
     return next((code for code in codes if code != ExitCode.SUCCESS), ExitCode.SUCCESS)

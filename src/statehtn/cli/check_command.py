@@ -7,6 +7,7 @@ import json
 from collections import Counter
 
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit, emit_lines
 from statehtn.counted import counted
 from statehtn.errors import one_line
@@ -29,6 +30,7 @@ def run_check(options: argparse.Namespace) -> ExitCode:
     inspection = inspected(options.domain, options.problem, limits)
     findings, ending = inspection.findings, inspection.ending
     stopped = None if ending is None else status_of(ending)
+    let_finish()
     match options.format:
         case "json":
             emit(json.dumps(_as_object(findings, options, stopped), allow_nan=False))

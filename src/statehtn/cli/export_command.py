@@ -9,6 +9,7 @@ from functools import partial
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.shared_options import policy_settings_in
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit, say
 from statehtn.counted import counted
 from statehtn.display.policy_result import readable_policy
@@ -51,6 +52,7 @@ def run_export(options: argparse.Namespace) -> ExitCode:
     else:
         grounding = session.ground_for_policies(limits, Meter())
         model = reachable_model(grounding, settings.failure_cost, limits)
+    let_finish()
     output.write("\n".join(prism_text(model, one_line(title))) + "\n", limits)
     if not output.is_stdout:
         emit(f"{one_line(options.prism)}: {counted(len(model.done), 'state')}")

@@ -62,8 +62,8 @@ class OutputFile:
         self.name = name
         self.path = Path(os.path.realpath(name))  # of a symbolic link, the file it points to is replaced
         self.descriptor = 1 if name == STDOUT else own_descriptor(name)
+        self.is_regular = False
         if self.descriptor is not None:
-            self.is_regular = False
             return
         with self._failing():
             mode = _mode(self.path)
@@ -116,6 +116,8 @@ class OutputFile:
         except OSError as error:
             raise OutputError(f"cannot write '{self.name}': {error.strerror}") from error
         except (LimitReached, KeyboardInterrupt) as ending:
+            if self.is_regular:  # which nobody waits for
+                raise
             raise OutputError(f"cannot write '{self.name}': nobody reads it") from ending
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from statehtn.cli.exit_codes import ExitCode
 from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.shared_options import agent_of
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit
 from statehtn.core.grounding import PLAIN, ground
 from statehtn.counted import counted
@@ -55,7 +56,9 @@ def run_graph(options: argparse.Namespace) -> ExitCode:
     output = OutputFile(options.output, (options.domain, options.problem, options.costs))
     problem = read_problem(options)
     graph = make_graph(problem, options.kind, agent)
-    output.write(FORMATS[form](graph))
+    text = FORMATS[form](graph)
+    let_finish()
+    output.write(text)
     if not output.is_stdout:
         sizes = f"{counted(len(graph), 'node')}, {counted(graph.number_of_edges(), 'edge')}"
         emit(f"{one_line(options.output)}: {sizes}")

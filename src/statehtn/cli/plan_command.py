@@ -11,6 +11,7 @@ from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.formats import printed
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import objective_in
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import OutputError, emit, emit_lines, say
 from statehtn.compatible import NOTHING, switches_in
 from statehtn.core.heuristics import PORTFOLIO
@@ -81,6 +82,7 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
         pass
     except _SeveralOutcomes as found:
         return _run_policy(options, Session(found.problem), limits)
+    let_finish()
     keeper.finish(result, session.problem)
     _print(result, session.problem, options, beside=output is not None and output.is_stdout)
     if (

@@ -13,6 +13,7 @@ from statehtn.cli.files import OutputFile, read_problem
 from statehtn.cli.no_plan import say_why
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import policy_settings_in
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit
 from statehtn.decomposition import to_dot, to_svg
 from statehtn.errors import UsageError
@@ -48,6 +49,7 @@ def run_policy(options: argparse.Namespace, session: Session | None = None, limi
     limits = limits or Limits.starting_now(options.time_limit, options.memory_limit)
     with ProgressLine(silent=options.quiet) as progress:
         result = find_policy(session, settings, limits, progress.show_policy if progress.visible else None)
+    let_finish()
     beside = any(file.is_stdout for file, _ in pictures)
     _print(result, options, beside)
     is_told = options.json or options.quiet or beside

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
-import threading
 import traceback
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from types import FrameType
 
 from statehtn.cli.arguments import make_parser, parse_arguments
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.plan_command import run_plan
+from statehtn.cli.signals import signals_as_interrupt
 from statehtn.cli.streams import OutputError, reopen_closed_streams, say
 from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, UsageError, one_line
 from statehtn.limits import LimitReached
@@ -23,8 +21,8 @@ from statehtn.limits import LimitReached
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code; `arguments` are those after the program's name."""
-    reopen_closed_streams()
-    with _signals_as_interrupt(), _warnings_as_lines():
+    with signals_as_interrupt(), _warnings_as_lines():
+        reopen_closed_streams()
         try:
             options = parse_arguments(sys.argv[1:] if arguments is None else arguments)
             return int(_run(options))
@@ -129,35 +127,6 @@ def _complain(code: ExitCode, line: str) -> ExitCode:
         say(traceback.format_exc())
     say(one_line(line))
     return code
-
-
-@contextmanager
-def _signals_as_interrupt() -> Iterator[None]:
-    """Treat SIGTERM and SIGHUP as Ctrl-C, so that a batch system's stop, or a closed terminal, ends in a result, too.
-
-    What is ignored (`nohup`) stays so. After the first signal others of its kind are ignored: a terminal that is closed
-    sends several, and the result has to be written.
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    caught = [
-        number
-        for name in ("SIGTERM", "SIGHUP")
-        if (number := getattr(signal, name, None)) is not None and signal.getsignal(number) != signal.SIG_IGN
-    ]
-
-    def interrupt(_signal: int, _frame: FrameType | None) -> None:
-        for number in caught:
-            signal.signal(number, signal.SIG_IGN)
-        raise KeyboardInterrupt
-
-    previous = [signal.signal(number, interrupt) for number in caught]
-    try:
-        yield
-    finally:
-        for number, handler in zip(caught, previous, strict=True):
-            signal.signal(number, handler)
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import STDOUT, OutputFile, read_problem
 from statehtn.cli.progress import ProgressLine
 from statehtn.cli.shared_options import objective_in
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import OutputError, emit, emit_lines
 from statehtn.effort import Meter
 from statehtn.errors import UsageError
@@ -49,6 +50,7 @@ def run_top(options: argparse.Namespace) -> ExitCode:
             result = solve_top(session, settings, limits, progress.show_top if progress.visible else None)
     except KeyboardInterrupt:  # between two phases
         result = TopPlans(Status.INTERRUPTED, settings, Meter().read(), Status.INTERRUPTED)
+    let_finish()
     failure = None
     if options.output is not None and session.problem is not None and result.plans:
         try:

@@ -8,6 +8,7 @@ import json
 from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.plan_files import read_plan_file
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit
 from statehtn.hddl.plan_format import write_plan
 from statehtn.limits import LimitReached, Limits
@@ -35,6 +36,7 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
         found = None if validation.plan is None else write_plan(validation.plan, problem)
     except LimitReached as ending:
         validation = Validation((f"the plan is not checked: {ending} before",), (), stopped=ending.status)
+    let_finish()
     if options.json:
         whole = {**validation.to_dict(), "actions": [str(step) for step in steps], "plan": found}
         emit(json.dumps(whole, allow_nan=False))

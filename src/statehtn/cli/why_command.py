@@ -9,6 +9,7 @@ from statehtn.cli.exit_codes import EXIT_CODES, ExitCode
 from statehtn.cli.files import read_problem
 from statehtn.cli.plan_files import read_plan_file
 from statehtn.cli.shared_options import objective_in, policy_settings_in
+from statehtn.cli.signals import let_finish
 from statehtn.cli.streams import emit
 from statehtn.errors import UsageError
 from statehtn.explanation.ask import NO_FAILURE_COST
@@ -42,6 +43,7 @@ def run_why(options: argparse.Namespace) -> ExitCode:
         if not options.json:
             raise
         answer = NoPlan(ending.status)
+    let_finish()
     emit(json.dumps(answer.to_dict(), allow_nan=False) if options.json else str(answer))
     code = EXIT_CODES[answer.status]
     return ExitCode.SUCCESS if code in (ExitCode.UNSOLVABLE, ExitCode.GAVE_UP) else code

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import statehtn._relax as _relax
 from statehtn.core.action_names import Key, action_names, key_of
@@ -15,7 +15,7 @@ from statehtn.core.labels import Labels
 from statehtn.core.progress import Progress, SearchProgress, TopProgress
 from statehtn.core.search_run import SearchOutcome, SearchRun, TracedPlans
 from statehtn.effort import SearchEffort
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import ENDINGS, Limits, in_spite_of_interrupt, status_of
 from statehtn.model.status import Status
 from statehtn.risk.keep import Keep
 
@@ -105,8 +105,8 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
                     break
                 if is_better:
                     yield replace(self.outcome(), status=Status.SOLVED)
-        except LimitReached as reached:
-            self.stopped = reached.status
+        except ENDINGS as ending:
+            self.stopped = self.stopped or status_of(ending)
         yield self.outcome()
 
     def _stages(self) -> Iterator[bool]:
@@ -141,9 +141,11 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
     def _search_once(self) -> bool:
         result = self.run_core()
         self.take(result.statistics, result.stop)
+        self.unread = bool(result.plans)  # until all are taken up
+        is_better = self._take_up(result.plans)
         self.unread = len(result.plans) < result.statistics.found
         self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)
-        return self._take_up(result.plans)
+        return is_better
 
     def run_core(self) -> _relax.LabelSearchResult:
         """Run the search in the core on the present grid, with the present options."""
@@ -184,7 +186,17 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         return Progress(seconds, effort, bound if best is None or bound is None else min(bound, best), best)
 
     def _take_up(self, traces: Sequence[_relax.SearchResult]) -> bool:
-        """Take up plans that were found and keep their budgets; returns whether the best is a better one."""
+        """Take up plans that were found and keep their budgets; returns whether the best is a better one.
+
+        An interruption ends the run, but not this at first.
+        """
+        is_better, is_interrupted = in_spite_of_interrupt(partial(self._value, traces), self.limits)
+        if is_interrupted:
+            self.stopped = Status.INTERRUPTED
+        return is_better
+
+    def _value(self, traces: Sequence[_relax.SearchResult]) -> bool:
+        """Take up plans as `_take_up` does, unless something ends it."""
         before = self.plans[0].value if self.plans else math.inf
         for trace in traces:
             if trace.cost is None or not self._keeps_budgets(trace):

@@ -36,13 +36,13 @@ class TracedPlans:
     def __iter__(self) -> Iterator[Plan]:
         return self.read(Limits())
 
-    def read(self, limits: Limits) -> Iterator[Plan]:
-        """Yield the plans.
+    def read(self, limits: Limits, first: int = 0) -> Iterator[Plan]:
+        """Yield the plans from the `first` one on.
 
         Raises:
             LimitReached: a limit was reached before the next one was read.
         """
-        return (self.reader.read(result, limits) for result in self.results)
+        return (self.reader.read(result, limits) for result in self.results[first:])
 
 
 @dataclass(frozen=True, slots=True)

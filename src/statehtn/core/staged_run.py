@@ -12,7 +12,7 @@ from statehtn.core.progress import Progress
 from statehtn.core.scale import MOST_UNITS, TOLERANCE, Scale, worth_while
 from statehtn.core.search_run import PricedRun, SearchOutcome, TracedPlans
 from statehtn.effort import SearchEffort
-from statehtn.limits import Limits
+from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.status import Status
 
 _STATUSES = {
@@ -50,18 +50,26 @@ class StagedRun(PricedRun[Progress, _relax.SearchStatistics]):
             sharpens: repeat the last stage on finer scales as long as that can prove more; a search that looks for any
                 plan proves what it can in passing.
         """
+        try:
+            for _ in self._better_plans(stages, weight, sharpens):
+                yield replace(self.outcome(), status=Status.SOLVED)
+        except ENDINGS as ending:  # between two stages
+            self.ending = self.stopped = status_of(ending)
+        yield self.outcome()
+
+    def _better_plans(self, stages: Sequence[Options], weight: float, sharpens: bool) -> Iterator[PricedTrace]:
+        """Go through the stages, and yield every plan that is better than the one before."""
         for options in stages:
             best = self.best
             if self.stage(options):
                 break
-            if self.best is not best:
-                yield replace(self.outcome(), status=Status.SOLVED)
+            if self.best is not None and self.best is not best:
+                yield self.best
         while sharpens and self.sharpen(weight):
             best = self.best
             self.stage(stages[-1])
-            if self.best is not best:
-                yield replace(self.outcome(), status=Status.SOLVED)
-        yield self.outcome()
+            if self.best is not None and self.best is not best:
+                yield self.best
 
     def stage(self, options: Options) -> bool:
         """Run one stage; returns whether it was the last one that can make a difference on this scale."""
@@ -102,7 +110,7 @@ class StagedRun(PricedRun[Progress, _relax.SearchStatistics]):
         """Return how the stages ended together."""
         status, bound = self.ending, self.bound
         if self.best is not None:
-            status = Status.OPTIMAL if self.proves() else Status.SOLVED
+            status = Status.OPTIMAL if self.stopped is None and self.proves() else Status.SOLVED
             bound = None if bound is None else min(bound, self.best.cost)
         plans = TracedPlans(self.reader, [] if self.best is None else [self.best.trace])
         return SearchOutcome(status, self.stopped, plans, bound, self.effort, unread=self.unread)

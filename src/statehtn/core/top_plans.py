@@ -46,7 +46,4 @@ def find_top_plans(
     options.heuristic = heuristic
     set_switches(options, switches)
     run = TopRun(problem, options, limits, progress)
-    run.search()
-    while run.sharpen():
-        run.search()
-    return run.outcome()
+    return run.outcome_of_all()

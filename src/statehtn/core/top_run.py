@@ -12,7 +12,7 @@ from statehtn.core.progress import TopProgress
 from statehtn.core.scale import TOLERANCE, Scale
 from statehtn.core.search_run import PricedRun, SearchOutcome, TracedPlans
 from statehtn.effort import SearchEffort
-from statehtn.limits import Limits
+from statehtn.limits import ENDINGS, Limits, status_of
 from statehtn.model.status import Status
 
 
@@ -44,19 +44,30 @@ class TopRun(PricedRun[TopProgress, _relax.LabelStatistics]):
             return 0
         return sum(plan.cost * (1 - TOLERANCE) <= self.bound for plan in self.plans)
 
+    def outcome_of_all(self) -> SearchOutcome:
+        """Search on one scale after the other as long as that can prove more; return how that ended."""
+        try:
+            self.search()
+            while self.sharpen():
+                self.search()
+        except ENDINGS as ending:  # between two searches
+            self.stopped = status_of(ending)
+        return self.outcome()
+
     def search(self) -> None:
         """Search on the present scale."""
         problem, sums = self.problem.grounding.handle, _relax.PriceSums(self.prices.handle)
         result = _relax.label_search(problem, sums, self.action_names, self.options, *self.limits.left(), self.watch)
         self.take(result.statistics, result.stop)
-        self.unread = len(result.plans) < result.statistics.found
-        self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)
+        self.unread = bool(result.plans)  # until all are taken up
         for trace in result.plans:
             plan = self.problem.of_plan(trace)
             known = self._found.setdefault(self._key(plan), plan)
             if plan.cost < known.cost:
                 self._found[self._key(plan)] = plan
         self.plans = sorted(self._found.values(), key=lambda plan: plan.cost)[: self.options.count]
+        self.unread = len(result.plans) < result.statistics.found
+        self.bound = math.inf if result.is_all else self.bound_with(result.statistics.lower_bound)
 
     def sharpen(self) -> bool:
         """Take a finer scale, or one with a higher cap, where something is left to prove; returns whether it is."""

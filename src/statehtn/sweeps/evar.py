@@ -23,10 +23,11 @@ import heapq
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 from statehtn.compatible import LABEL_SWITCHES
 from statehtn.found_plan import FoundPlan, priced
-from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.limits import ENDINGS, Limits, in_spite_of_interrupt, status_of
 from statehtn.model.status import Status
 from statehtn.pipeline import solutions
 from statehtn.result import Result
@@ -138,6 +139,8 @@ class EvarSweep:
                 return
             if self.consider(first):
                 yield self.result(Status.SOLVED)
+            if self.runs.stopped is not None:
+                break
         self.bound = first.lower_bound  # no EVaR is below the mean
         if self.best is None or self.runs.stopped is not None or self.bound is None:
             yield self.result(first.status)
@@ -199,13 +202,22 @@ class EvarSweep:
         """Take the plan of a run for the best one, if it is better; tell whether it is."""
         if result.found is None:
             return False
-        value, x = PlanCurve(step.law for step in result.found.steps).evar(self.radius)
-        if self.best is not None and value >= self.value:
+        measure = partial(self._measured, result.found)
+        (better, x), is_interrupted = in_spite_of_interrupt(measure, self.runs.limits)
+        if is_interrupted:
+            self.runs.stopped = Status.INTERRUPTED
+        if better is None:
             return False
-        self.best = priced(result.found.plan, self.objective, unchecked=result.found.unchecked)
-        self.best_x = x
+        self.best, self.best_x = better, x
         self.runs.best = self.value
         return True
+
+    def _measured(self, found: FoundPlan) -> tuple[FoundPlan | None, float]:
+        """Return a plan with its EVaR, None where that is not less than the best one known, and the x that gives it."""
+        value, x = PlanCurve(step.law for step in found.steps).evar(self.radius)
+        if self.best is not None and value >= self.value:
+            return None, x
+        return priced(found.plan, self.objective, unchecked=found.unchecked), x
 
     def is_proven(self, bound: float) -> bool:
         """Tell whether a bound proves the best plan to the precision that is asked for."""
