@@ -267,7 +267,9 @@ def test_better_plans_come_one_after_the_other(vehicle: statehtn.Problem) -> Non
 
 def test_what_is_not_proven_to_the_precision_has_a_gap(vehicle: statehtn.Problem) -> None:
     wanted = "one-switch alpha=0.9 tradeoff=20 wealth=40"
-    result = statehtn.plan(vehicle, objective=wanted, precision=1e-15)  # more than floating point can hold
+    result = statehtn.plan(
+        vehicle, objective=wanted, solver="plan", precision=1e-15
+    )  # more than floating point can hold
     assert result.status is statehtn.Status.SOLVED
     assert result.value is not None
     assert result.lower_bound is not None

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 
 import statehtn._relax as _relax
 from statehtn.core.labels import Labels, Support
 from statehtn.core.law_grid import LawGrid
 from statehtn.core.law_labels import LawLabels, law_options
+from statehtn.core.law_objectives import whole_steps
 from statehtn.core.switches import LabelSwitches
 from statehtn.limits import Limits
 from statehtn.model.cost.law import CostLaw
 from statehtn.risk.keep import Keep
-
-MOST_STEPS = 2**1000
-"""In a budget: a float in the core, and more than any plan costs."""
 
 
 class BudgetLabels(Labels):
@@ -41,10 +37,7 @@ class BudgetLabels(Labels):
     def valuation(self) -> _relax.Valuation:
         """That of the objective, of plans that keep the budgets on the present grid."""
         grid = self._grid
-        budgets = [
-            (min(math.floor(Fraction(repr(budget.budget)) / grid.grid.step), MOST_STEPS), budget.probability)
-            for budget in self._keep
-        ]
+        budgets = [(whole_steps(budget.budget, grid.grid.step), budget.probability) for budget in self._keep]
         return _relax.Budgets(self._labels.valuation, grid.least, grid.costs, budgets, self._options)
 
     def refine(self, limits: Limits) -> bool:

@@ -19,6 +19,8 @@ from statehtn.limits import ENDINGS, Limits, in_spite_of_interrupt, status_of
 from statehtn.model.status import Status
 from statehtn.risk.keep import Keep
 
+VALUED = (16, 256)
+"""So many times as many plans as are wanted are valued exactly where no grid tells which is the best."""
 PRECISION = 1e-6
 """How much of its value, or of 1 if that is more, a plan that is called optimal may be worse than the best."""
 
@@ -36,7 +38,8 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
 
     Searches with a single price for each action come first: their plans are incumbents. Then label searches, on one
     grid after the other: on each, no plan has a worth above its value, so that what is proven on any of them holds.
-    Plans are compared by their exact values, by which they keep their budgets, too.
+    Plans are compared by their exact values, by which they keep their budgets, too. In the end, where no grid has
+    proven which is the best, more plans than are wanted are listed and compared.
 
     Args:
         grounding: the ground problem.
@@ -50,6 +53,8 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
 
     is_supported = True
     """Whether searches with a single price for each action come first."""
+    lists_plans = True
+    """Whether the core can search for several plans."""
     seconds_to_value = 0.0
     """What it took to work out the value of a plan at most: as long it takes once more when the search is over."""
 
@@ -67,6 +72,7 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         self.grounding = grounding
         self.labels = labels
         self.options = options
+        self.count = options.count
         self.keep = keep
         self.precision = precision
         self.plans: list[ValuedTrace] = []
@@ -91,7 +97,7 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
 
     @property
     def _is_proven(self) -> bool:
-        is_full = len(self.plans) == self.options.count
+        is_full = len(self.plans) == self.count
         return self.bound == math.inf or (is_full and self.proven == len(self.plans))
 
     def outcomes(self) -> Iterator[SearchOutcome]:
@@ -121,6 +127,21 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         yield self.search()
         while self.labels.refine(self.limits):
             yield self.search()
+        for times in VALUED if self.lists_plans else ():
+            yield self._list(times)
+
+    def _list(self, times: int) -> bool:
+        """Search for more plans than are wanted; returns whether a better one was found.
+
+        Values are exact, so that the bound has to hold for plans that are not in the list only. Where no grid is fine
+        enough, as with continuous costs, the plans in question are often few.
+        """
+        self.options.count = times * self.count
+        try:
+            return self.search()
+        finally:
+            self.options.count = self.count
+            del self.plans[self.count :]
 
     def search(self) -> bool:
         """Search on the present grid; returns whether a better plan was found.
@@ -129,7 +150,7 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         What was proven on either holds; the gap between that and the exact value of the plan says what is lost.
         """
         self.options.upper_bound = None
-        if self.options.count == 1 and self.plans:
+        if self.count == 1 and self.plans:
             best = self.plans[0].value
             self.options.upper_bound = self.labels.worth_of(best - self._slack(best) / 2)
         is_better = self._search_once()
@@ -157,13 +178,13 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         """Return how the searches ended together."""
         is_all = self.bound == math.inf
         bound = None if is_all else self.bound
-        if bound is not None and len(self.plans) == self.options.count:
+        if bound is not None and len(self.plans) == self.count:
             bound = min(bound, self.plans[-1].value)
         if self.plans:
             is_proven = is_all or self.proven == len(self.plans)
             is_optimal = is_proven and self.stopped is None and not self.unread
             status = Status.OPTIMAL if is_optimal else Status.SOLVED
-            bound = self.plans[-1].value if is_all and self.options.count == 1 else bound
+            bound = self.plans[-1].value if is_all and self.count == 1 else bound
         else:
             status = self.stopped or (Status.UNSOLVABLE if is_all else Status.GAVE_UP)
         plans = TracedPlans(self.reader, [plan.trace for plan in self.plans])
@@ -177,7 +198,7 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         self, statistics: _relax.LabelStatistics, seconds: float, effort: SearchEffort, bound: float | None
     ) -> SearchProgress:
         """Return what the user's callback is told while a search goes on."""
-        if self.options.count > 1:
+        if self.count > 1:
             found, proven = max(len(self.plans), statistics.found), max(self.proven, statistics.proven)
             return TopProgress(seconds, effort, bound, found, proven)
         best = self.plans[0].value if self.plans else None
@@ -230,6 +251,7 @@ class NetworkRun(LabelRun):
     """
 
     is_supported = False
+    lists_plans = False
 
     def __init__(
         self,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -16,7 +16,7 @@ from statehtn.model import CostDistribution, CostLaw
 from statehtn.model.cost.scipy_call import scipy_call
 from statehtn.model.cost.scipy_law import ScipyCost
 from statehtn.model.cost.sum import parts_of
-from statehtn.model.cost.total import as_decimal
+from statehtn.model.fraction import fraction_of
 
 Outcomes = tuple[list[float], list[float]]
 """Of a law: whole steps, ascending, and the probability of each."""
@@ -51,14 +51,16 @@ class Grid:
 
     Args:
         step: in the domain's unit.
-        exact_step: the largest step of which all costs are multiples, as the decimals that they print as; None where
+        exact_step: the largest step of which all costs are multiples, as the fractions that they stand for; None where
             there is none, or none that is large enough.
         tail: the probability of the upper end.
+        most_steps: that the largest cost may have.
     """
 
     step: Fraction
     exact_step: Fraction | None
     tail: float
+    most_steps: int = MOST_STEPS
 
     @property
     def is_exact(self) -> bool:
@@ -70,7 +72,7 @@ class Grid:
         """Return a grid for laws: exact, or a coarse one."""
         parts = list(parts_of(laws))
         listed = [law for law in parts if isinstance(law, CostDistribution)]
-        costs = {as_decimal(cost) for law in listed for _, cost in law.outcomes}
+        costs = {fraction_of(cost) for law in listed for _, cost in law.outcomes}
         tops = [_top(law, TAIL) for law in parts if not isinstance(law, CostDistribution)]
         largest = max([*map(float, costs), *tops], default=0.0) or 1.0
         common = _common_step(costs)
@@ -82,7 +84,7 @@ class Grid:
         step = Fraction(2) ** math.floor(math.log2(largest / FIRST_STEPS))
         if common is not None:  # so that at least the lists of outcomes are exact at some time, or from the first
             step = common * math.floor(step / common) if step > common else common / math.ceil(common / step)
-        return Grid(step, exact, TAIL)
+        return Grid(step, exact, TAIL, MOST_STEPS if len(listed) == len(parts) else MOST_CELLS)
 
     def finer(self, largest: float) -> Grid | None:
         """Return a finer grid; None where this one is exact, or as fine as can be."""
@@ -91,18 +93,18 @@ class Grid:
         step = self.step / FINER
         if self.exact_step is not None:
             step = max(self.exact_step, self.exact_step * math.floor(step / self.exact_step))
-        elif largest > step * MOST_CELLS:
+        elif largest > step * self.most_steps:
             return None
-        return Grid(step, self.exact_step, self.tail * SMALLER_TAIL)
+        return replace(self, step=step, tail=self.tail * SMALLER_TAIL)
 
     def coarser(self, largest: float) -> Grid | None:
         """Return a coarser grid, on which laws have fewer outcomes; None where hardly any would be left."""
         step = self.step * FINER
-        return Grid(step, self.exact_step, self.tail) if largest > step * FEWEST_STEPS else None
+        return replace(self, step=step) if largest > step * FEWEST_STEPS else None
 
     def steps(self, cost: float) -> int:
-        """Return the cost in whole steps, rounded down; the float means the decimal that it prints as."""
-        return math.floor(as_decimal(cost) / self.step)
+        """Return the cost in whole steps, rounded down."""
+        return math.floor(fraction_of(cost) / self.step)
 
     def outcomes(self, law: CostLaw) -> Outcomes:
         """Return a law on the grid."""
@@ -126,7 +128,8 @@ class Grid:
         """Return a continuous law: what is in each cell stands at its lower end, the upper end where it begins."""
         import numpy
 
-        first, last = self.steps(law.least), self.steps(_top(law, self.tail))
+        first = self.steps(law.least)
+        last = min(self.steps(_top(law, self.tail)), first + FINER * MOST_CELLS)  # a heavy tail would have any number
         ends = float(self.step) * numpy.arange(first + 1, last + 1)
         with scipy_call(law.title):
             below = law.frozen.cdf(numpy.nextafter(ends, -math.inf))  # a single cost at an end belongs to the next cell

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 import statehtn._relax as _relax
+from statehtn.model.fraction import fraction_of
 from statehtn.risk.callable_utility import CallableUtility
 from statehtn.risk.cvar import ConditionalValueAtRisk
 from statehtn.risk.deadline import Deadline
@@ -27,14 +28,22 @@ MOST_TABLED = 2**17
 """Costs on the grid for which a Python function is asked; the utility is taken as flat beyond, which is a bound."""
 
 
+MOST_STEPS = 2**1000
+"""Of a cost: a float in the core, and more than any plan costs."""
+
+
 def steps(cost: float, step: Fraction) -> float:
-    """Return how many steps a cost has; the float means the decimal that it prints as."""
-    return float(Fraction(repr(cost)) / step)
+    """Return how many steps a cost has."""
+    return float(min(fraction_of(cost) / step, MOST_STEPS))
+
+
+def whole_steps(cost: float, step: Fraction) -> int:
+    """Return how many whole steps there are up to a cost."""
+    return min(math.floor(fraction_of(cost) / step), MOST_STEPS)
 
 
 def _deadline(objective: Deadline, step: Fraction, _: float) -> _relax.LawObjective:
-    last = math.floor(Fraction(repr(objective.budget)) / step)
-    return _relax.ExpectedDisutility(0.0, 0.0, [(float(last), 1.0, 0.0)])
+    return _relax.ExpectedDisutility(0.0, 0.0, [(float(whole_steps(objective.budget, step)), 1.0, 0.0)])
 
 
 def _overrun(objective: Overrun, step: Fraction, _: float) -> _relax.LawObjective:

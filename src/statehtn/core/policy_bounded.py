@@ -8,7 +8,7 @@ from statehtn.core.policy_space import most_cost
 from statehtn.errors import UnsupportedError
 from statehtn.expected import shown_number
 from statehtn.limits import Limits, watched
-from statehtn.model.cost.total import as_decimal
+from statehtn.model.fraction import fraction_of
 from statehtn.risk import CallableUtility
 
 MOST_AMOUNTS = 2**20
@@ -42,7 +42,7 @@ def bounded_disutility(
             f"a policy by '{objective}' needs costs that are bounded, since nothing is known of the function beyond "
             "what is asked of it: here a loop that costs something may be run through again and again"
         )
-    first = int(most) + (0 if failure_cost is None else int(as_decimal(failure_cost) / step))
+    first = int(most) + (0 if failure_cost is None else int(fraction_of(failure_cost) / step))
     if first >= MOST_AMOUNTS:
         raise UnsupportedError(
             f"a policy by '{objective}' needs its values for all amounts that may be spent, and there are "

@@ -13,7 +13,7 @@ from statehtn.core.law_grid import Grid, LawGrid
 from statehtn.core.policy_problem import PolicyProblem
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
-from statehtn.model.cost.total import as_decimal
+from statehtn.model.fraction import fraction_of
 from statehtn.risk import ConditionalValueAtRisk, Deadline, MeanCvar, Objective, Overrun, Piecewise, Quantile
 
 MOST_LEFT = 2**31 - 2
@@ -42,16 +42,16 @@ class Disutility:
 
 
 def _deadline(objective: Deadline, step: Fraction) -> Disutility:
-    return Disutility(math.floor(as_decimal(objective.budget) / step), beyond=1.0)
+    return Disutility(math.floor(fraction_of(objective.budget) / step), beyond=1.0)
 
 
 def _overrun(objective: Overrun, step: Fraction) -> Disutility:
-    first, rest = divmod(as_decimal(objective.budget), step)
+    first, rest = divmod(fraction_of(objective.budget), step)
     return Disutility(int(first), beyond=-float(rest), slope=float(step))
 
 
 def _piecewise(objective: Piecewise, step: Fraction) -> Disutility:
-    last = math.ceil(as_decimal(objective.points[-1][0]) / step)
+    last = math.ceil(fraction_of(objective.points[-1][0]) / step)
     value = [-objective.utility(float(step * steps)) for steps in range(last + 2)]
     return Disutility(last, tuple(reversed(value[:-1])), beyond=value[-2], slope=value[-1] - value[-2])
 
@@ -97,7 +97,7 @@ def exact_grid(problem: PolicyProblem, objective: Objective, failure_cost: float
         found = LawGrid(problem.grounding, Grid(exact, exact, found.grid.tail), limits)
     if failure_cost is None or not math.isfinite(failure_cost):
         return found
-    step, failure = found.grid.step, as_decimal(failure_cost)
+    step, failure = found.grid.step, fraction_of(failure_cost)
     unit = math.lcm(step.denominator, failure.denominator)
     common = Fraction(math.gcd(int(step * unit), int(failure * unit)), unit)
     if common == step:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from statehtn.counted import finite
 from statehtn.errors import UnsupportedError
 from statehtn.model.cost.law import CostLaw
-from statehtn.model.cost.total import as_decimal
+from statehtn.model.fraction import fraction_of
 from statehtn.model.policy_graph import End, FlatPolicy
 from statehtn.policies.totals import outcomes_of
 
@@ -78,7 +78,7 @@ class _Writer:
         self.outcomes = {key: outcomes_of(law) for key, law in laws.items()}
         costs = [cost for outcomes in self.outcomes.values() for _, cost in outcomes]
         if model.failure is not None:
-            costs.append(as_decimal(model.failure))
+            costs.append(fraction_of(model.failure))
         self.per_unit = math.lcm(*(cost.denominator for cost in costs), 1)
         if max(costs, default=Fraction(0)) * self.per_unit > MOST_UNITS:
             which = "the costs of this problem"
@@ -125,17 +125,17 @@ class _Writer:
         for number, edges in enumerate(choices):
             yield f"  [c{number}] s={node} -> {self._updates(edges)};"
         if not choices or (self.model.failure is not None and not self.model.is_chain):
-            amount = 0 if self.model.failure is None else int(as_decimal(self.model.failure) * self.per_unit)
+            amount = 0 if self.model.failure is None else int(fraction_of(self.model.failure) * self.per_unit)
             yield f"  [give_up] s={node} -> (s'={self._after(self.failed, amount)});"
 
     def _updates(self, edges: Sequence[Edge]) -> str:
         parts: dict[int, Fraction] = {}
         for edge in edges:
             given = edge.probability
-            share = given if isinstance(given, Fraction) else as_decimal(float(given))
+            share = given if isinstance(given, Fraction) else fraction_of(float(given))
             for probability, cost in self.outcomes[id(edge.law)]:
                 target = self._after(edge.successor, int(cost * self.per_unit))
-                parts[target] = parts.get(target, Fraction(0)) + share * as_decimal(probability)
+                parts[target] = parts.get(target, Fraction(0)) + share * fraction_of(probability)
         whole = sum(parts.values())
         if len(parts) == 1:
             return f"(s'={next(iter(parts))})"

@@ -14,7 +14,7 @@ from statehtn.limits import Limits
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.sum import CostSum
-from statehtn.model.cost.total import as_decimal
+from statehtn.model.fraction import fraction_of
 from statehtn.model.policy_graph import End
 from statehtn.policies.chain import Chain
 from statehtn.policies.components import components
@@ -171,7 +171,7 @@ def outcomes_of(law: CostLaw) -> list[tuple[float, Fraction]]:
     """
     total = law.total if isinstance(law, CostSum) else law
     if isinstance(total, CostDistribution) and type(total) is CostDistribution:
-        return [(probability, as_decimal(cost)) for probability, cost in total.outcomes]
+        return [(probability, fraction_of(cost)) for probability, cost in total.outcomes]
     raise UnsupportedError(
         f"total costs, amount by amount, need lists of outcomes, and one of the costs is none: {law}; the expected "
         "cost, certainty equivalents and simulations do without"

@@ -17,6 +17,7 @@ from statehtn.model.cost.distribution import PROBABILITY_TOLERANCE as PROBABILIT
 from statehtn.model.cost.distribution import CostDistribution as CostDistribution
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.formula import TRUE, Atom, Fact, Formula
+from statehtn.model.fraction import fraction_of
 from statehtn.model.types import Parameter
 
 Amount = float | Fraction | Decimal
@@ -24,7 +25,7 @@ Amount = float | Fraction | Decimal
 
 
 def exact(number: Amount) -> Fraction:
-    """Return a number as a fraction; a float means the decimal that it prints as.
+    """Return a number as a fraction; what a float stands for is said at `fraction_of`.
 
     Raises:
         UsageError: it is not finite, or no number.
@@ -32,7 +33,7 @@ def exact(number: Amount) -> Fraction:
     if not isinstance(number, Real | Decimal) or isinstance(number, bool):
         raise UsageError(f"expected a number, found {number!r}")
     try:
-        return Fraction(number) if isinstance(number, Rational | Decimal) else Fraction(repr(float(number)))
+        return Fraction(number) if isinstance(number, Rational | Decimal) else fraction_of(float(number))
     except (ValueError, OverflowError):
         raise UsageError(f"expected a finite number, found {number}") from None
 

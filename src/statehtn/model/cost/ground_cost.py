@@ -21,6 +21,7 @@ from statehtn.model.cost.probabilities import completed
 from statehtn.model.cost.scenario_cost import by_scenario
 from statehtn.model.cost.sum import CostSum
 from statehtn.model.formula import TRUE, Fact
+from statehtn.model.fraction import fraction_of
 
 if TYPE_CHECKING:
     from statehtn.model.problem import Action, Problem
@@ -227,7 +228,7 @@ def _block(
 
 
 def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) -> ExactLaw | CostLaw:
-    """Read what a callable returned. A float means the decimal that it prints as, so that equal costs stay equal."""
+    """Read what a callable returned. A float stands for a fraction, so that equal costs stay equal."""
     if is_of_scipy(answer):
         try:
             answer = CostDistribution.from_scipy(answer)
@@ -247,12 +248,12 @@ def _external_law(answer: object, action: Action, arguments: tuple[str, ...]) ->
         number = float(cost)
         if not math.isfinite(number):
             raise InputError(f"the external cost of {_name(action, arguments)} must be finite, found {number}")
-        exact = Fraction(repr(number))
+        exact = fraction_of(number)
         try:
             _check("a cost", exact)
         except InputError as error:
             raise InputError(f"the external cost of {_name(action, arguments)}: {error.message}") from None
-        law[exact] = law.get(exact, Fraction(0)) + Fraction(repr(probability))
+        law[exact] = law.get(exact, Fraction(0)) + fraction_of(probability)
     total = sum(law.values(), Fraction(0))
     return law if total == 1 else {cost: probability / total for cost, probability in law.items()}
 

@@ -6,12 +6,12 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from statehtn.errors import InputError
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
+from statehtn.model.fraction import fraction_of
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -30,22 +30,16 @@ TAIL = 1e-10
 NOISE = 1e-16  # what a fast Fourier transform leaves where there is nothing
 
 
-@lru_cache(2**16)
-def as_decimal(number: float) -> Fraction:
-    """Return the decimal that a float prints as; costs of many scenarios are mostly the same ones."""
-    return Fraction(repr(number))
-
-
 def exact_total(laws: Sequence[CostDistribution]) -> CostDistribution | None:
     """Return the sum of finite laws in exact arithmetic, None where it is too large.
 
-    A float means the decimal that it prints as; probabilities are scaled to sum to 1. Costs are integers over a common
-    denominator, probabilities integers over the product of the sums of each law.
+    A float stands for a fraction (see `fraction_of`); probabilities are scaled to sum to 1. Costs are integers over a
+    common denominator, probabilities integers over the product of the sums of each law.
     """
-    costs = [[as_decimal(cost) for _, cost in law.outcomes] for law in laws]
+    costs = [[fraction_of(cost) for _, cost in law.outcomes] for law in laws]
     unit = math.lcm(*(cost.denominator for row in costs for cost in row))
     steps = [[int(cost * unit) for cost in row] for row in costs]
-    weights = [_integers([as_decimal(probability) for probability, _ in law.outcomes]) for law in laws]
+    weights = [_integers([fraction_of(probability) for probability, _ in law.outcomes]) for law in laws]
     totals = _packed_totals(steps, weights) or _listed_totals(steps, weights)
     if totals is None:
         return None
