@@ -84,3 +84,9 @@ def test_what_is_listed_beyond_the_wanted_plans_is_no_answer() -> None:
     assert all(isinstance(progress, statehtn.Progress) for progress in seen)
     best = statehtn.top_plans(FAR_APART, 1, objective="deadline 12.34567")
     assert (len(best), best.proven) == (1, 1)
+
+
+@pytest.mark.parametrize("objective", ["deadline 1e200", "overrun 1e200", "piecewise 0:0 1e200:-1"])
+def test_budgets_far_beyond_all_costs(objective: str) -> None:
+    found = statehtn.plan(problem("(increase (total-cost) 1e-200)"), objective=objective, keep=["1e200 0.9"])
+    assert (found.status, found.value) == (Status.OPTIMAL, 0)

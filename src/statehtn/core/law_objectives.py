@@ -34,7 +34,7 @@ MOST_STEPS = 2**1000
 
 def steps(cost: float, step: Fraction) -> float:
     """Return how many steps a cost has."""
-    return float(min(fraction_of(cost) / step, MOST_STEPS))
+    return float(min(fraction_of(cost) / step, Fraction(MOST_STEPS)))
 
 
 def whole_steps(cost: float, step: Fraction) -> int:
