@@ -46,22 +46,20 @@ class Kept:
     Args:
         budget: in the domain's unit.
         probability: with which the total cost must not exceed it, at least.
-        attained: with which a plan does not exceed it; where no plan keeps all budgets, the largest there is for this
-            one alone. None where that is not known.
+        attained: with which a plan does not exceed it; where no plan keeps all budgets, the largest that was found for
+            this one alone. None where that is not known.
+        at_most: where no plan keeps all budgets: no plan attains more than this, which is proven and, but for rounding
+            and continuous costs, what is attained; else None.
     """
 
     budget: float
     probability: float
     attained: float | None
+    at_most: float | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Return the entry of `keep` in the JSON object."""
-        return {"budget": self.budget, "probability": self.probability, "attained": self.attained}
-
-
-def kept(keep: Keep, attained: float | None) -> Kept:
-    """Return a budget that is to be kept with what is attained."""
-    return Kept(keep.budget, keep.probability, attained)
+        return {name: getattr(self, name) for name in ("budget", "probability", "attained", "at_most")}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -232,7 +230,7 @@ def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecke
     law = None if has_prices and not keep else sum_of(plan.costs)
     prices = (step.risk_cost or 0.0 for step in steps)
     value = math.fsum(prices) if law is None or has_prices else objective.value(law)
-    budgets = tuple(kept(one, None if law is None else one.attained(law)) for one in keep)
+    budgets = tuple(Kept(one.budget, one.probability, None if law is None else one.attained(law)) for one in keep)
     risk_cost: float | None = None
     if objective.unit is ValueUnit.COST and (law is None or has_prices):
         risk_cost = value

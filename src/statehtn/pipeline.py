@@ -11,7 +11,7 @@ from statehtn.core.search_run import SearchOutcome
 from statehtn.correlation import Correlation, value_as_if_independent
 from statehtn.counted import counted
 from statehtn.effort import Meter, Statistics
-from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, not_validated, priced, validated_and_priced
+from statehtn.found_plan import SECONDS_TO_VALIDATE, FoundPlan, Kept, not_validated, priced, validated_and_priced
 from statehtn.limits import ENDINGS, SECONDS_TO_READ, Limits, status_of, watched
 from statehtn.log import log
 from statehtn.model.cost.unknown import MissingNumber
@@ -70,7 +70,7 @@ def solutions(
 
     for reached in _run(session, settings, search, limits):
         found = reached.found[0] if reached.found else None
-        largest: tuple[float | None, ...] = ()
+        largest: tuple[Kept, ...] = ()
         correlation: Correlation | None = None
         statistics = reached.statistics
         with suppress(*ENDINGS):  # what was found stays, also where this is not known
@@ -121,26 +121,30 @@ def solve_top(
 
 def _largest(
     session: Session, settings: Settings | TopSettings, limits: Limits, reached: Reached
-) -> tuple[tuple[float | None, ...], Statistics]:
+) -> tuple[tuple[Kept, ...], Statistics]:
     """Return how well each budget can be kept by itself where no plan keeps all of them, and the effort with that.
 
-    None for a budget of which a limit left that unknown. Empty where there is a plan, or none whatever the budgets.
+    Nothing is known of a budget for which a limit ended the search. Empty where there is a plan, or none whatever the
+    budgets.
     """
     statistics = reached.statistics
     if reached.status is not Status.UNSOLVABLE:
         return (), statistics
-    largest: list[float | None] = []
+    largest: list[Kept] = []
     for keep in settings.keep:
-        if None in largest:  # a limit was reached, or Ctrl-C was pressed
-            largest.append(None)
+        if largest and largest[-1].attained is None:  # a limit was reached, or Ctrl-C was pressed
+            largest.append(Kept(keep.budget, keep.probability, None))
             continue
         on_time = Settings.of(Deadline(keep.budget), heuristic=settings.heuristic, precision=settings.precision)
         best = solve(session, on_time, limits)
         statistics = statistics.and_search(best.statistics)
         if best.status is Status.UNSOLVABLE:
             return (), statistics
-        is_best = best.plan is not None and best.status is Status.OPTIMAL
-        largest.append(keep.attained(best.plan.cost_distribution()) if best.plan is not None and is_best else None)
+        attained = at_most = None
+        if best.plan is not None and best.lower_bound is not None and best.stopped is None:
+            attained = keep.attained(best.plan.cost_distribution())
+            at_most = max(attained, 1 - best.lower_bound)
+        largest.append(Kept(keep.budget, keep.probability, attained, at_most))
     return tuple(largest), statistics
 
 

@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 from statehtn.correlation import Correlation, ScenarioLaw, scenario_laws
 from statehtn.counted import counted
 from statehtn.effort import Statistics
-from statehtn.found_plan import PRICES, FoundPlan, Kept, PricedSteps, kept
+from statehtn.found_plan import PRICES, FoundPlan, Kept, PricedSteps
 from statehtn.model.plan import Plan
 from statehtn.model.status import Status
 from statehtn.risk import Objective, Utility, agent_in, agent_name
@@ -30,8 +30,7 @@ class RunResult(Generic[S]):
         stopped: what ended it before it was done, with or without a plan; None for nothing.
         unread: whether a plan was found, better than what is there, that has too many tasks to be put together before
             that; of a search for several plans: whether there are more of them.
-        largest: where no plan keeps all budgets: for each of them the largest probability with which a plan keeps it,
-            None where that is not known; else empty.
+        largest: where no plan keeps all budgets, how well each can be kept by itself; else empty.
     """
 
     status: Status
@@ -39,7 +38,7 @@ class RunResult(Generic[S]):
     statistics: Statistics = field(default_factory=Statistics)
     stopped: Status | None = None
     unread: bool = False
-    largest: tuple[float | None, ...] = ()
+    largest: tuple[Kept, ...] = ()
 
     @property
     def keep(self) -> tuple[Kept, ...]:
@@ -245,5 +244,4 @@ def class_counted_on(name: str | None, plans: Sequence[Plan]) -> str | None:
 
 def _asked(result: RunResult[Any]) -> tuple[Kept, ...]:
     """Return the budgets to keep of a run, with how well each can be kept by itself where that was asked."""
-    asked = result.settings.keep
-    return tuple(map(kept, asked, result.largest or [None] * len(asked)))
+    return result.largest or tuple(Kept(one.budget, one.probability, None) for one in result.settings.keep)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import pickle
 from pathlib import Path
 
@@ -196,8 +197,8 @@ def test_a_budget_that_is_kept(capsys: Capture) -> None:
     assert main(["plan", *AV, "--objective", "cvar 0.5", "--keep", "25 0.99", "--keep", "20 1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["keep"] == [
-        {"budget": 25.0, "probability": 0.99, "attained": 1.0},
-        {"budget": 20.0, "probability": 1.0, "attained": 1.0},
+        {"budget": 25.0, "probability": 0.99, "attained": 1.0, "at_most": None},
+        {"budget": 20.0, "probability": 1.0, "attained": 1.0, "at_most": None},
     ]
     assert (found["status"], found["value"]) == ("optimal", pytest.approx(BEST))
     assert main(["plan", *AV, "--keep", "20 0.9"]) == 0
@@ -218,6 +219,55 @@ def test_budgets_that_no_plan_keeps(command: list[str], capsys: Capture) -> None
     assert main([*command, *AV, *budgets, "--json"]) == 10
     found = json.loads(capsys.readouterr().out)
     assert [kept["attained"] for kept in found["keep"]] == [pytest.approx(0.2), 1.0]
+
+
+def test_what_is_known_of_a_budget_with_continuous_costs(tmp_path: Path, capsys: Capture) -> None:
+    """Two ways: a gamma law, which has no exact grid, and 8 for certain. The first keeps 3 with probability 0.594."""
+    text = """(define (domain d) (:predicates (p)) (:task go :parameters ())
+      (:method one :parameters () :task (go) :ordered-subtasks (and (a)))
+      (:method two :parameters () :task (go) :ordered-subtasks (and (b)))
+      (:action a :parameters () :effect (p)) (:action b :parameters () :effect (p)))"""
+    costs = """[[costs]]
+      action = "a"
+      distribution = "gamma"
+      parameters = { a = 2, scale = 1.5 }
+      [[costs]]
+      action = "b"
+      cost = 8"""
+    files = [tmp_path / name for name in ("domain.hddl", "problem.hddl", "costs.toml")]
+    network = "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (go))) (:init))"
+    for file, content in zip(files, (text, network, costs), strict=True):
+        file.write_text(content)
+    asked = [*map(str, files[:2]), "--costs", str(files[2]), "--keep", "3 0.9"]
+    largest = 1 - 3 * math.exp(-2)
+    for command in (["plan"], ["top", "2"]):
+        assert main([*command, *asked, "--json"]) == 10
+        (kept,) = json.loads(capsys.readouterr().out)["keep"]
+        assert kept["attained"] == pytest.approx(largest)
+        assert kept["attained"] <= kept["at_most"] < largest + 2e-3
+    for command in (["plan"], ["top", "2"], ["compare-attitudes", "--alpha=0.1"]):
+        assert main([*command, *asked, "--precision", "0.1"]) == 10
+        shown = " ".join(capsys.readouterr().out.split())
+        assert "unsolvable: it is proven that no plan of this problem keeps 3 with probability 0.9" in shown
+        assert "with probability 0.593994" in shown
+        assert "by the best plan that was found for it, and 0.6" in shown
+        assert "at most by any" in shown
+
+
+def test_agents_none_of_whom_has_a_plan(tmp_path: Path, capsys: Capture) -> None:
+    domain, problem = tmp_path / "domain.hddl", tmp_path / "problem.hddl"
+    domain.write_text(DOMAIN)
+    problem.write_text(UNSOLVABLE)
+    for keep in ([], ["--keep", "12 0.9"]):
+        assert main(["compare-attitudes", str(domain), str(problem), *keep]) == 10
+        shown = capsys.readouterr().out
+        assert "why: " in shown
+        assert "no plan of this problem keeps" not in shown
+    assert main(["compare-attitudes", *AV, "--keep", "12 0.9", "--keep", "20 1"]) == 10
+    shown = capsys.readouterr().out
+    assert shown.count("no plan of this problem keeps 12 with probability 0.9 and 20 with probability 1") == 1
+    assert "within 12: with probability 0.2 at most, by the plan that is best at it" in shown
+    assert "why: " not in shown
 
 
 def test_budgets_of_a_problem_without_a_plan() -> None:

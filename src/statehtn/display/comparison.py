@@ -8,6 +8,7 @@ from html import escape
 
 from statehtn.attitudes import AttitudeComparison, Difference, tokens
 from statehtn.display.table import Column, Table, on_the_point
+from statehtn.display.words import ending, keep_rows
 from statehtn.found_plan import PricedStep
 from statehtn.model.plan import Step
 from statehtn.model.status import Status
@@ -33,7 +34,7 @@ def comparison_text(comparison: AttitudeComparison) -> str:
     table = _side_by_side(comparison)
     blocks = [] if table is None else [table.to_text()]
     blocks.append("\n".join((_costs(comparison).to_text(), *_legend(comparison))))
-    return "\n\n".join((*blocks, *_reasons(comparison)))
+    return "\n\n".join((*blocks, *_reasons(comparison), *_unkept(comparison)))
 
 
 def comparison_html(comparison: AttitudeComparison) -> str:
@@ -41,6 +42,7 @@ def comparison_html(comparison: AttitudeComparison) -> str:
     table = _side_by_side(comparison)
     parts = [] if table is None else [table.to_html()]
     parts += [_costs(comparison).to_html(), *(f"<div>{escape(note)}</div>" for note in _legend(comparison))]
+    parts += [f"<div>{escape(line)}</div>" for block in _unkept(comparison) for line in block.split("\n")]
     if reasons := list(_reasons(comparison)):
         text = escape("\n\n".join(reasons))
         parts.append(f'<details><summary>why</summary><pre style="line-height: 1.25">{text}</pre></details>')
@@ -108,6 +110,14 @@ def _costs(comparison: AttitudeComparison) -> Table:
             cells = [*map(_number, ends), *map("".join, zip(map(_number, row), marks, strict=True))]
         rows.append((f"of the {agent}", *cells))
     return Table((Column("cost of the plan"), *(Column(head, is_number=True) for head in heads)), rows)
+
+
+def _unkept(comparison: AttitudeComparison) -> Iterator[str]:
+    """Say that no plan keeps the budgets, which is the same for all agents, and how well each can be kept, in lines."""
+    for result in comparison.results:
+        if result.largest:
+            yield "\n".join([ending(result), *(f"{label}: {what}" for label, what in keep_rows(result))])
+            return
 
 
 def _reasons(comparison: AttitudeComparison) -> Iterator[str]:

@@ -31,6 +31,8 @@ STOPS = {
 }
 ROUNDING = 1e-14
 """Of the sum of a law's probabilities."""
+PROBABILITY_ROUNDING = 1e-6
+"""Of probabilities; less is not told apart."""
 COUNTS_ON = "counts on"
 """The head of a column."""
 NO_CLASS = "none of the paper's"
@@ -120,9 +122,14 @@ def keep_rows(result: Result | TopPlans) -> Labelled:
     """Return how well each budget is kept, by the plan or, where no plan keeps them all, by the best one for it."""
     rows = []
     for one in result.keep:
-        if one.attained is not None:
-            best = "" if result else " at most, by the plan that is best at it"
-            rows.append((f"within {number(one.budget)}", f"with probability {likely(one.attained)}{best}"))
+        if one.attained is None:
+            continue
+        best = ""
+        if one.at_most is not None and one.at_most - one.attained > PROBABILITY_ROUNDING:
+            best = f" by the best plan that was found for it, and {likely(one.at_most)} at most by any"
+        elif one.at_most is not None:
+            best = " at most, by the plan that is best at it"
+        rows.append((f"within {number(one.budget)}", f"with probability {likely(one.attained)}{best}"))
     if not result and len(rows) > 1 and all((one.attained or 0) >= one.probability for one in result.keep):
         rows.append(("together", "each of these budgets can be kept, but no plan keeps all of them"))
     return rows
