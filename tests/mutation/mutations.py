@@ -403,7 +403,7 @@ MUTATIONS = [
         "relax/grounding/outcomes.cpp",
         "const std::size_t number = is_mixed && mixture ? *mixture : outcomes_.size();",
         "const std::size_t number = mixture ? *mixture : outcomes_.size();",
-        (GROUND_OUTCOMES,),
+        ("tests/unit/test_grounded_outcomes.py", GROUND_OUTCOMES),
     ),
     Mutation(
         "grounding: where outcomes are, the second block of an action always takes its first branch",

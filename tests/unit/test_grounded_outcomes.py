@@ -78,6 +78,16 @@ def test_conditional_costs_of_outcomes_are_parts_of_their_actions() -> None:
     assert [str(part.cost) for part in held.cost_parts] == ["5"]
 
 
+def test_outcomes_with_the_same_facts_stay_apart_where_the_state_decides_what_one_costs() -> None:
+    """One law of both would take the costs as independent of each other."""
+    effect = """(probabilistic 0.5 (and (held ?b) (increase (total-cost) 1))
+        0.3 (and (held ?b) (when (icy) (increase (total-cost) 5))) 0.2 (not (icy)))"""
+    certain, conditional, _ = grasps(read(effect, "(icy)"))
+    assert (certain.probability, str(certain.cost), certain.cost_parts) == (Fraction(1, 2), "1", ())
+    assert (conditional.probability, str(conditional.cost)) == (Fraction(3, 10), "0")
+    assert [str(part.cost) for part in conditional.cost_parts] == ["5"]
+
+
 def test_costs_of_outcomes_with_the_same_facts_hang_together_with_others() -> None:
     effect = """(probabilistic 0.5 (and (held ?b) (when (icy) (increase (total-cost) 5)))
         0.3 (and (held ?b) (increase (total-cost) 1)) 0.2 (wet ?b))"""
