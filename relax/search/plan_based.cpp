@@ -178,8 +178,10 @@ void PlanBased::generate(NodeId parent, NetworkId network, const SearchStep& ste
     if (options_.upper_bound && f >= *options_.upper_bound) {
         return;
     }
-    // 20, 21
-    open_.push(static_cast<NodeId>(nodes_.size()), f, h, static_cast<std::uint32_t>(tasks_.tasks.size()));
+    // 20, 21. What can be executed comes first among those as good but for a rounding error, of which recursion without
+    // a cost may have any number.
+    const Worth priority = compounds_.empty() ? better_than(f, options_.tolerance) : f;
+    open_.push(static_cast<NodeId>(nodes_.size()), priority, h, static_cast<std::uint32_t>(tasks_.tasks.size()));
     nodes_.push_back({network, parent, step});
 }
 

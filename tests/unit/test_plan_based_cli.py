@@ -55,3 +55,20 @@ def test_a_network_whose_order_costs_more_than_its_tasks_waits_for_others() -> N
     assert result.status is Status.OPTIMAL
     assert result.risk_cost == 5
     assert result.lower_bound == 5
+
+
+LOOP = """
+(define (domain d) (:predicates (here)) (:functions (total-cost)) (:task t :parameters ())
+  (:method again :parameters () :task (t) :ordered-subtasks (and (wait) (t)))
+  (:method done :parameters () :task (t) :ordered-subtasks (and (walk)))
+  (:action wait :parameters () :effect (and))
+  (:action walk :parameters () :effect (probabilistic 0.5 (increase (total-cost) 3) 0.5 (increase (total-cost) 7))))
+"""
+
+
+@pytest.mark.parametrize(("objective", "value"), [("deadline 5", 0.5), ("overrun 5", 1), ("piecewise 0:0 5:0 6:-1", 1)])
+def test_a_loop_whose_bound_is_lower_by_a_rounding_error_does_not_go_on_for_ever(objective: str, value: float) -> None:
+    result = plan(LOOP, "(t)", objective=objective)
+    assert result.status is Status.OPTIMAL
+    assert result.value == pytest.approx(value)
+    assert (result.statistics.expanded or 0) < 10

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import statehtn._relax as _relax
@@ -14,12 +14,16 @@ from statehtn.core.staged_run import StagedRun
 from statehtn.core.switches import SearchSwitches
 from statehtn.effort import SearchEffort
 from statehtn.limits import Limits
+from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.cost.scenario_cost import total_of
 from statehtn.model.status import Status
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.objective import Objective
 from statehtn.risk.utility import Utility
+
+ROUNDED_DOWN = 1 - 2.0**-40
+"""More than what a proven bound may be too high by rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,14 +89,37 @@ class Labels(ABC):
             share: of the time that is left for each of them; they are no more than a beginning.
         """
         is_answered = False
-        for support in self.cheapest(Neutral(), limits, share):
+        for support in self.cheapest(Neutral(), limits, share, implied=self._value_of_mean):
             is_answered = is_answered or bool(support.traces) or support.unsolvable
             yield support
         if not is_answered:
             yield from self.cheapest(Neutral(), limits, share, "greedy")
 
-    def cheapest(self, utility: Utility, limits: Limits, share: float, search: str = "astar") -> Iterator[Support]:
-        """Yield what a search by the prices of a utility finds; arguments as of `support`.
+    def _value_of_mean(self, least: float) -> float | None:
+        """Return a lower bound of the value of every plan, none of which has a mean below the least one.
+
+        An objective that is averse to risk finds no law better than its mean for certain.
+        """
+        if not self.objective.concave:
+            return None
+        return self.objective.value(CostDistribution.certain(least * ROUNDED_DOWN))
+
+    def cheapest(
+        self,
+        utility: Utility,
+        limits: Limits,
+        share: float,
+        search: str = "astar",
+        implied: Callable[[float], float | None] = lambda _: None,
+    ) -> Iterator[Support]:
+        """Yield what a search by the prices of a utility finds.
+
+        Args:
+            utility: its certainty equivalents are the prices.
+            limits: those of the run.
+            share: of the time that is left.
+            search: a name in `SEARCHES`.
+            implied: the lower bound of all values that follows from one of all prices; None for none.
 
         Raises:
             InputError: a cost has no finite price; the message names the action.
@@ -101,8 +128,9 @@ class Labels(ABC):
         run = StagedRun(price(self.grounding, utility, limits), limits.for_a_part(share))
         for outcome in run.outcomes([core_options(SEARCHES[search][0], self.grounding, "auto", 1.0, SearchSwitches())]):
             stopped = None if outcome.stopped is Status.TIME_LIMIT else outcome.stopped
-            found = outcome.plans.results
-            yield Support(found, None, outcome.effort, stopped, outcome.status is Status.UNSOLVABLE)
+            bound = None if outcome.lower_bound is None else implied(outcome.lower_bound)
+            unsolvable = outcome.status is Status.UNSOLVABLE
+            yield Support(outcome.plans.results, bound, outcome.effort, stopped, unsolvable)
 
     def law(self, trace: _relax.SearchResult) -> CostLaw:
         """Return the law of the total cost of a plan that was found."""
