@@ -61,8 +61,17 @@ def items(value: object, what: str) -> list[Any]:
     Raises:
         UsageError: it lists nothing.
     """
+    return list(each_of(value, what))
+
+
+def each_of(value: object, what: str) -> Iterable[Any]:
+    """Return an argument that lists something, or gives one thing after the other; as `items`, but not yet a list.
+
+    Raises:
+        UsageError: it lists nothing.
+    """
     if isinstance(value, Iterable) and not isinstance(value, str | bytes):
-        return list(value)
+        return value
     raise UsageError(f"{what} must be a list, found {shown(value)}")
 
 

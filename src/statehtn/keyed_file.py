@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 from statehtn.errors import InputError
 from statehtn.limits import Limits
 from statehtn.read_file import read_whole
+
+N = TypeVar("N", int, float)
+
+NUMBERS = 1024
+"""Of a file that are read between two looks at the limits."""
 
 
 def read_tables(file: Path, limits: Limits = Limits()) -> Mapping[str, Any]:
@@ -26,7 +31,11 @@ def read_tables(file: Path, limits: Limits = Limits()) -> Mapping[str, Any]:
     data = read_whole(file, limits)
     try:
         text = data.decode("utf-8-sig" if kind == "JSON" else "utf-8")
-        tables = json.loads(text) if kind == "JSON" else tomllib.loads(text)
+        number = limited(float, limits)
+        if kind == "JSON":
+            tables = json.loads(text, parse_float=number, parse_int=limited(int, limits))
+        else:
+            tables = tomllib.loads(text, parse_float=number)
     except UnicodeDecodeError as error:
         raise InputError(f"{file}: this is no {kind}: byte {error.start} is not UTF-8") from None
     except ValueError as error:  # of either reader, or a number with thousands of digits
@@ -36,6 +45,20 @@ def read_tables(file: Path, limits: Limits = Limits()) -> Mapping[str, Any]:
     if not isinstance(tables, dict):
         raise InputError(f"{file}: expected an object with keys, found {_shown(tables):.50}")
     return tables
+
+
+def limited(read: Callable[[str], N], limits: Limits) -> Callable[[str], N]:
+    """Return a function that reads a number, and looks at the limits now and then: no reader of files does."""
+    count = 0
+
+    def look_and_read(text: str) -> N:
+        nonlocal count
+        if count % NUMBERS == 0:
+            limits.check()
+        count += 1
+        return read(text)
+
+    return look_and_read
 
 
 def _shown(value: object) -> str:

@@ -67,6 +67,9 @@ def _pieces(name: str | os.PathLike[str], title: str, limits: Limits) -> Iterato
         os.close(descriptor)
 
 
-def read_whole(name: str | os.PathLike[str], limits: Limits = Limits()) -> bytes:
+def read_whole(name: str | os.PathLike[str], limits: Limits = Limits()) -> bytearray:
     """Return the whole content of a file; as `read_pieces`."""
-    return b"".join(read_pieces(name, limits))
+    whole = bytearray()
+    for piece in read_pieces(name, limits):
+        whole += piece
+    return whole

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from statehtn.expected import items
-from statehtn.limits import ENDINGS, Limits, status_of
+from statehtn.limits import ENDINGS, Limits, status_of, watched
 from statehtn.model import And, Atom, Decomposition, Effect, Equals, Method, Plan, Problem, Signature, Step, Subtask
 from statehtn.model.expect import expect_plan, expect_problem
 from statehtn.model.problem import Action, Fact, TaskNetwork
@@ -98,11 +98,13 @@ def validate_run(
     expect_problem(problem)
     price = likeliest if objective is None else partial(_price_of, objective)
     if isinstance(plan, Plan) or not isinstance(plan, list | tuple):
-        return validate_plan(problem, expect_plan(plan), limits, price, seen)
+        with watched(limits):
+            return validate_plan(problem, expect_plan(plan), limits, price, seen)
     from statehtn.hddl.action_list import actions_of  # lists are rare, and the reader takes a moment to import
 
-    steps = actions_of(items(plan, "the actions"), problem)
-    execution = execute_steps(problem, steps, limits)
+    with watched(limits):
+        steps = actions_of(items(plan, "the actions"), problem)
+        execution = execute_steps(problem, steps, limits)
     if not execution.valid:
         return execution
     try:
@@ -110,7 +112,8 @@ def validate_run(
     except ENDINGS as ending:
         found = status_of(ending)
     if isinstance(found, Plan):
-        return replace(validate_plan(problem, found, limits, price, seen), plan=found)
+        with watched(limits):
+            return replace(validate_plan(problem, found, limits, price, seen), plan=found)
     if found in UNDECIDED:
         return replace(execution, reasons=(UNDECIDED[found],), stopped=found)
     return replace(execution, reasons=(NOT_FOUND,))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import codecs
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -19,7 +21,7 @@ from statehtn.limits import Limits
 from statehtn.model import CostDistribution, CostLaw
 from statehtn.model.cost.scipy_call import scipy_call
 from statehtn.model.cost.scipy_law import ScipyCost
-from statehtn.read_file import read_whole
+from statehtn.read_file import read_pieces
 
 ESTIMATES = 3  # of the PERT law: optimistic, likely, pessimistic
 OWN_KEYS = ("action", "arguments")
@@ -118,7 +120,7 @@ def _samples(table: KeyedTable, where: _Place) -> CostLaw:
         return CostDistribution.from_samples(_numbers_in(table, where.folder / given, where.limits))
     if not isinstance(given, list):
         table.complain("samples", "a list of numbers, or the name of a file with numbers", given)
-    return CostDistribution.from_samples([_number(table, "samples", value) for value in given])
+    return CostDistribution.from_samples(_number(table, "samples", value) for value in given)
 
 
 def _counts(table: KeyedTable, _: _Place) -> CostLaw:
@@ -214,19 +216,27 @@ def _by_cost(table: KeyedTable, key: str, what: str) -> dict[float, float]:
     return found
 
 
-def _numbers_in(table: KeyedTable, path: Path, limits: Limits) -> list[float]:
-    """Read numbers that are separated by white space, commas or semicolons."""
+def _numbers_in(table: KeyedTable, path: Path, limits: Limits) -> Iterator[float]:
+    """Yield numbers that are separated by white space, commas or semicolons, piece of the file by piece."""
+    decode = codecs.getincrementaldecoder("utf-8")().decode
+    rest = ""  # of the last piece: the beginning of a word that may go on
     try:
-        text = read_whole(path, limits).decode("utf-8")
-    except InputError as error:
-        raise InputError(f"{table.place}: 'samples': {error.message}") from None
+        for piece in chain(read_pieces(path, limits), (b"",)):
+            text = rest + decode(piece, not piece).replace(",", " ").replace(";", " ")
+            words = text.split()
+            rest = words.pop() if piece and words and not text[-1].isspace() else ""
+            for word in words:
+                yield _read_number(table, path, word)
     except UnicodeDecodeError:
         raise InputError(f"{table.place}: 'samples': '{path}' is no text file") from None
-    words = text.replace(",", " ").replace(";", " ").split()
-    numbers = []
-    for word in words:
-        try:
-            numbers.append(float(word))
-        except ValueError:
-            raise InputError(f"{table.place}: 'samples': expected numbers in '{path}', found '{word}'") from None
-    return numbers
+    except InputError as error:
+        if error.message.startswith(table.place):
+            raise
+        raise InputError(f"{table.place}: 'samples': {error.message}") from None
+
+
+def _read_number(table: KeyedTable, path: Path, word: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        raise InputError(f"{table.place}: 'samples': expected numbers in '{path}', found '{word:.50}'") from None

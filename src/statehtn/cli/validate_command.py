@@ -35,6 +35,7 @@ def run_validate(options: argparse.Namespace) -> ExitCode:
         validation = validate(problem, plan, limits)
         found = None if validation.plan is None else write_plan(validation.plan, problem)
     except LimitReached as ending:
+        steps = ()  # there is nothing to say of them, and there may be millions
         validation = Validation((f"the plan is not checked: {ending} before",), (), stopped=ending.status)
     let_finish()
     if options.json:

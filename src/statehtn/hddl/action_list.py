@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 
 from statehtn.errors import InputError, Place
+from statehtn.hddl.plan_lines import lines_of
 from statehtn.hddl.spelling import Spellings
 from statehtn.model.plan import Step
 from statehtn.model.problem import Problem
@@ -30,21 +31,30 @@ def read_actions(text: str, problem: Problem, file: str = "<plan>") -> tuple[Ste
     Raises:
         InputError: a line between actions is none.
     """
-    lines = [(number, line.split(";", 1)[0].strip()) for number, line in enumerate(text.splitlines(), 1)]
-    shown = [(number, line) for number, line in lines if line and line not in ("==>", "<==")]
-    if any(line.lower().startswith("root") or "->" in line for _, line in shown):
-        return None
-    matches = [(number, line, _ACTION.fullmatch(line) or _NUMBERED.fullmatch(line)) for number, line in shown]
-    if shown and not any(match for _, _, match in matches):
-        return None
     actions, objects = Spellings(problem.domain.actions), Spellings(problem.all_objects)
-    steps = []
-    for number, line, match in matches:
-        words = match[1].split() if match else []
-        if not words:
-            raise InputError(f"expected an action such as (drive a b), found '{line}'", Place(file, number, 1))
-        steps.append(_step(words, actions, objects))
-    return tuple(steps)
+    known: dict[str, Step | None] = {}  # by line: a long list repeats few; None for what is no action
+    steps: list[Step] = []
+    wrong: InputError | None = None
+    for number, whole in enumerate(lines_of(text), 1):
+        line = whole.split(";", 1)[0].strip()
+        if not line or line in ("==>", "<=="):
+            continue
+        if line.lower().startswith("root") or "->" in line:
+            return None
+        if line not in known:
+            match = _ACTION.fullmatch(line) or _NUMBERED.fullmatch(line)
+            words = match[1].split() if match else []
+            known[line] = _step(words, actions, objects) if words else None
+        step = known[line]
+        if step is not None:
+            steps.append(step)
+        elif wrong is None:
+            wrong = InputError(f"expected an action such as (drive a b), found '{line}'", Place(file, number, 1))
+    if wrong is None:
+        return tuple(steps)
+    if not steps:
+        return None
+    raise wrong
 
 
 def actions_of(lines: Iterable[str | Step], problem: Problem) -> tuple[Step, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from statehtn.errors import InputError, Place
@@ -12,7 +13,17 @@ from statehtn.model.problem import Problem
 
 _UNSEEN = re.compile(f"[{UNSEEN}]")
 _NO_BRACKETS = str.maketrans("()[],", "     ")
+PIECE = 2**16  # characters
 TOP_TASK = "__top"  # some planners print the initial network as a method of a task of this name
+
+
+def lines_of(text: str) -> Iterator[str]:
+    """Yield the lines of a text without making all of them at once, which would take no look at any limit."""
+    start = 0
+    while start < len(text):
+        end = text.find("\n", start + PIECE) + 1 or len(text)
+        yield from text[start:end].splitlines()
+        start = end
 
 
 class Line:
@@ -140,7 +151,7 @@ def read_lines(text: str, problem: Problem, file: str) -> Lines:
     lines, names = Lines(), Names(problem)
     inside = False
     last = Place(file, 1, 1)
-    for number, content in enumerate(text.splitlines(), start=1):
+    for number, content in enumerate(lines_of(text), start=1):
         line = Line(file, number, content)
         if not line.words:
             continue

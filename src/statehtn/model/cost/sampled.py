@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
 
 from statehtn.errors import InputError, UsageError
-from statehtn.expected import items, number, shown
+from statehtn.expected import each_of, number, shown
 from statehtn.model.cost.distribution import CostDistribution
 from statehtn.model.cost.law import CostLaw
 
@@ -87,15 +86,18 @@ def _moved(outcomes: Iterable[tuple[float, float]], epsilon: float, target: floa
 
 def sampled_cost(data: Iterable[float], most: float | None) -> SampledCost:
     """Return the empirical distribution of observations; see `CostDistribution.from_samples`."""
-    values = [_number(value, "an observed cost") for value in items(data, "the observed costs")]
-    if not values:
+    counts: dict[float, int] = {}
+    for value in each_of(data, "the observed costs"):  # which may come from a large file, piece by piece
+        cost = _number(value, "an observed cost")
+        counts[cost] = counts.get(cost, 0) + 1
+    if not counts:
         raise InputError("a distribution from samples needs at least one observation, found none")
     limit = math.inf if most is None else _number(most, "the largest possible cost")
-    if max(values) > limit:
-        raise InputError(f"an observed cost of {max(values):g} is above the largest possible cost, {limit:g}")
-    counts = Counter(values)
-    outcomes = tuple((counts[cost] / len(values), cost) for cost in sorted(counts))
-    return SampledCost(outcomes, len(values), (0.0, limit))
+    if max(counts) > limit:
+        raise InputError(f"an observed cost of {max(counts):g} is above the largest possible cost, {limit:g}")
+    total = sum(counts.values())
+    outcomes = tuple([(counts[cost] / total, cost) for cost in sorted(counts)])
+    return SampledCost(outcomes, total, (0.0, limit))
 
 
 def posterior_predictive(counts: Mapping[float, float], prior: float | Mapping[float, float]) -> CostDistribution:
