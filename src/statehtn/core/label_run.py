@@ -20,7 +20,9 @@ from statehtn.model.status import Status
 from statehtn.risk.keep import Keep
 
 VALUED = (16, 256)
-"""So many times as many plans as are wanted are valued exactly where no grid tells which is the best."""
+"""So many times as many plans as are wanted are valued exactly where no grid tells which is the best ..."""
+MOST_VALUED = 2**12
+"""... but no more than this."""
 PRECISION = 1e-6
 """How much of its value, or of 1 if that is more, a plan that is called optimal may be worse than the best."""
 
@@ -127,16 +129,17 @@ class LabelRun(SearchRun[SearchProgress, _relax.LabelStatistics]):
         yield self.search()
         while self.labels.refine(self.limits):
             yield self.search()
-        for times in VALUED if self.lists_plans else ():
-            yield self._list(times)
+        for number in (times * self.count for times in VALUED):
+            if self.lists_plans and number <= MOST_VALUED:
+                yield self._list(number)
 
-    def _list(self, times: int) -> bool:
+    def _list(self, number: int) -> bool:
         """Search for more plans than are wanted; returns whether a better one was found.
 
         Values are exact, so that the bound has to hold for plans that are not in the list only. Where no grid is fine
         enough, as with continuous costs, the plans in question are often few.
         """
-        self.options.count = times * self.count
+        self.options.count = number
         try:
             return self.search()
         finally:
