@@ -59,6 +59,11 @@ def status_of(ending: BaseException) -> Status:
             return Status.INTERRUPTED
 
 
+def ending_by(status: Status) -> BaseException:
+    """Return what ends a phase of a run that ends with one of `STOPS`: it is no limit that an interruption reaches."""
+    return KeyboardInterrupt() if status is Status.INTERRUPTED else LimitReached(status)
+
+
 @dataclass(frozen=True, slots=True)
 class Limits:
     """A point in time and an amount of memory that a run must not pass; make one by `Limits.starting_now`.

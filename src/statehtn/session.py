@@ -125,8 +125,11 @@ class Session:
         if settings.needs_labels or self._hangs_together(settings, limits, meter):
             return self._by_labels(_label_search(settings), settings, limits, meter, progress)
         problem = self.price(settings.prices, limits, meter)
-        found = find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
-        return iter((found,))
+
+        def search() -> Iterator[SearchOutcome]:  # begins when its outcome is asked for
+            yield find_top_plans(problem, k, distinct=distinct, heuristic=heuristic, limits=limits, progress=progress)
+
+        return search()
 
     def as_if_independent(self) -> Session | None:
         """Return a session for the same ground problem, whose costs hang together, in which they are independent.

@@ -66,7 +66,7 @@ def test_without_a_plan_nothing_is_printed_and_the_reason_is_said(
 
 def test_two_things_do_not_share_standard_output(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", *AV, "--format", "csv", "--output", "-"]) == 2
-    assert "both --format csv and the plan of --output would go to standard output" in capsys.readouterr().err
+    assert "both the result (csv) and the plan of --output would go to standard output" in capsys.readouterr().err
     assert main(["plan", *AV, "--json", "--quiet"]) == 2
 
 

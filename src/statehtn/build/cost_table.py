@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, count
 
+from statehtn.counted import with_article
 from statehtn.errors import InputError, UnsupportedError
 from statehtn.hddl.diagnostics import unknown
 from statehtn.hddl.spelling import Spellings
@@ -190,7 +191,9 @@ def _check(entry: CostEntry, problem: Problem, before: list[CostEntry]) -> None:
                 raise InputError(f"{entry.place}: 'arguments': {unknown('object', name, problem.all_objects)}")
             if name not in problem.objects_of(parameter.types):
                 kind = problem.all_objects[name]
-                raise InputError(f"{entry.place}: 'arguments': expected {parameter}, found '{name}', a {kind}")
+                raise InputError(
+                    f"{entry.place}: 'arguments': expected {parameter}, found '{name}', {with_article(kind)}"
+                )
     for earlier in before:
         if earlier.covers(entry):
             raise InputError(

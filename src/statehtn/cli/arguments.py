@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from itertools import takewhile
 
 from statehtn.cli.epilogs import plan_epilog
 from statehtn.cli.formats import FORMATS
@@ -62,8 +63,11 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     """
     named = [name for name in arguments[:1] if name in COMMANDS]  # to add the options of all takes a while
     parser, commands = _parsers(named or COMMANDS)
-    chosen = next((commands.choices[word] for word in arguments if word in commands.choices), parser)
-    chosen.check_options(arguments)
+    chosen = next((commands.choices[word] for word in arguments if word in commands.choices), None)
+    if chosen is not None:
+        chosen.check_options(arguments)
+    else:  # whose options stand behind a command that does not exist is not known
+        parser.check_options(list(takewhile(lambda word: word.startswith("-"), arguments)))
     return _with_stdin(parser.parse_args(arguments))
 
 

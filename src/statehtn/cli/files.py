@@ -59,6 +59,10 @@ class OutputFile:
     """
 
     def __init__(self, name: str, inputs: Iterable[str | None] = ()) -> None:
+        if not name:
+            raise UsageError("the name of the file to write is empty")
+        if name.endswith(os.sep):
+            raise UsageError(f"cannot write '{name}': it is the name of a directory")
         self.name = name
         self.path = Path(os.path.realpath(name))  # of a symbolic link, the file it points to is replaced
         self.descriptor = 1 if name == STDOUT else own_descriptor(name)

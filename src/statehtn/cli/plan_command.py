@@ -66,7 +66,7 @@ def run_plan(options: argparse.Namespace) -> ExitCode:
     inputs = (options.domain, options.problem, options.costs)
     output = None if options.output is None else OutputFile(options.output, inputs)
     if output and output.is_stdout and options.format != "table":
-        asked = f"--format {options.format}"
+        asked = f"the result ({options.format})"
         raise UsageError(f"both {asked} and the plan of --output would go to standard output; leave out one of them")
     limits = Limits.starting_now(options.time_limit, options.memory_limit)
     keeper = _PlanKeeper(output, limits)

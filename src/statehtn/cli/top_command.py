@@ -74,7 +74,7 @@ def _check_folder(name: str) -> None:
         raise UsageError("--output of 'top' is a folder with a file for each plan; --quiet prints each plan on a line")
     folder = Path(name)
     if not os.path.isdir(name):  # noqa: PTH112 - Path.is_dir fails where a name is too long
-        OutputFile(name)
+        OutputFile(name.rstrip(os.sep))
         if folder.exists():
             raise UsageError(f"cannot write plans into '{name}': it is not a directory")
         return

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
-
 import statehtn._relax as _relax
 from statehtn.core.encode import CostPart, Encoding
 from statehtn.core.outcomes import Combination, Outcomes
 from statehtn.limits import Limits
+from statehtn.log import warn_caller
 from statehtn.model import (
     CostBlock,
     CostDistribution,
@@ -139,7 +138,7 @@ class CostLaws:
             first = next(iter(self.missing.values()))
             others = f" ({len(self.missing) - 1} more like it)" if len(self.missing) > 1 else ""
             until = "this cost is taken as 0, which is an error only if the best plan has it"
-            warnings.warn(f"{first}; {until}{others}", CostWarning, stacklevel=2)
+            warn_caller(CostWarning(f"{first}; {until}{others}"))
 
     def _read_parts(self, schema: int, record: list[int]) -> Parts:
         parts: Parts = []

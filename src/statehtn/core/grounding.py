@@ -13,7 +13,7 @@ from statehtn.core.cost_laws import CostLaws
 from statehtn.core.encode import Encoding, encode
 from statehtn.core.outcomes import Outcomes
 from statehtn.errors import InputError, UnsupportedError
-from statehtn.limits import LimitReached, Limits, watched
+from statehtn.limits import Limits, ending_by, watched
 from statehtn.model import (
     CostLaw,
     GroundAction,
@@ -213,7 +213,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
             an outcome.
 
     Raises:
-        LimitReached: a limit was reached, or Ctrl-C.
+        LimitReached, KeyboardInterrupt: a limit was reached, or Ctrl-C pressed.
         InputError: the cost of a reachable action is no distribution. What is not defined is taken as 0, with a
             `CostWarning` (see `statehtn.model.cost.unknown`).
             A probability of outcomes is none, or an action has more than 64 outcomes with different facts.
@@ -231,7 +231,7 @@ def ground(problem: Problem, limits: Limits = Limits(), switches: GroundingSwitc
         *limits.left(),
     )
     if isinstance(handle, _relax.StopReason):
-        raise LimitReached(STOPPED[handle])
+        raise ending_by(STOPPED[handle])
     if isinstance(handle, tuple):
         action, arguments, has_many_outcomes = handle
         name = " ".join((encoding.action_names[action], *(encoding.objects[number] for number in arguments)))

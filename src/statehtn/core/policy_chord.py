@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import statehtn._relax as _relax
 from statehtn.core.grounding import STOPPED
 from statehtn.core.policy_problem import PolicyProblem
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import Limits, ending_by
 from statehtn.model.cost.by_law import by_law
 from statehtn.model.cost.law import CostLaw
 
@@ -47,7 +47,7 @@ class ExploredPolicies:
             None where sums of steps, which may be negative, have no least one, or nothing is finite at `touching`.
 
         Raises:
-            LimitReached: a limit was reached, or Ctrl-C pressed.
+            LimitReached, KeyboardInterrupt: a limit was reached, or Ctrl-C pressed.
             InputError: a law has no line, as `line_of` says.
         """
         grounding = self.problem.grounding
@@ -55,5 +55,5 @@ class ExploredPolicies:
         ends = [([line[end] for line in actions], [line[end] for line in parts]) for end in (0, 1)]
         stop, found = self.run.chord(ends[0], ends[1], low, high, touching, self.x, enough, *limits.left())
         if stop is not None:
-            raise LimitReached(STOPPED[stop])
+            raise ending_by(STOPPED[stop])
         return found

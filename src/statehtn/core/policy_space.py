@@ -11,7 +11,7 @@ from statehtn.core.grounding import STOPPED, Grounding
 from statehtn.core.policy_laws import BranchLaws
 from statehtn.core.policy_problem import free_actions, uncertain_costs
 from statehtn.errors import UnsupportedError
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import Limits, ending_by
 from statehtn.model.cost.law import CostLaw
 
 MOST_NODES = 1_000_000
@@ -94,7 +94,7 @@ def _explored(grounding: Grounding, limits: Limits, too_many: str) -> _relax.Pol
         steps=steps,
     )
     if space.stop is not None:
-        raise LimitReached(STOPPED[space.stop])
+        raise ending_by(STOPPED[space.stop])
     if space.expanded_count < space.node_count:
         raise UnsupportedError(
             f"more than {MOST_NODES} states with their networks can be reached, perhaps infinitely many, {too_many}"

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 
 from statehtn.errors import InputError, Place
+from statehtn.expected import expect
 from statehtn.hddl.plan_lines import lines_of
 from statehtn.hddl.spelling import Spellings
 from statehtn.model.plan import Step
@@ -61,7 +62,8 @@ def actions_of(lines: Iterable[str | Step], problem: Problem) -> tuple[Step, ...
     """Return actions that are given one by one: steps, or texts such as `(drive a b)`.
 
     Raises:
-        InputError: one is neither.
+        UsageError: one is neither.
+        InputError: a text is no action.
     """
     actions, objects = Spellings(problem.domain.actions), Spellings(problem.all_objects)
     steps = []
@@ -69,7 +71,8 @@ def actions_of(lines: Iterable[str | Step], problem: Problem) -> tuple[Step, ...
         if isinstance(line, Step):
             steps.append(line)
             continue
-        words = line.strip().removeprefix("(").removesuffix(")").split() if isinstance(line, str) else []
+        expect(line, str, "an action of the plan must be a text such as '(drive a b)' or a step")
+        words = line.strip().removeprefix("(").removesuffix(")").split()
         if not words or any(character in word for word in words for character in "()"):
             raise InputError(f"expected an action such as '(drive a b)', found {line!r}")
         steps.append(_step(words, actions, objects))

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
 from typing import Literal
 
+from statehtn.counted import with_article
 from statehtn.hddl.diagnostics import Reporter, unknown
 from statehtn.hddl.expressions import Group, Node, Word, describe
 from statehtn.hddl.spelling import ODD, Spellings
@@ -240,7 +241,7 @@ def new_name(node: Node | None, kind: str, at: Node, reporter: Reporter) -> Word
     if node is None:
         raise reporter.error(f"expected the name of the {kind} after {describe(at)}", at)
     if isinstance(node, Group) or node.text[0] in "?:" or node.lower in ("-", "either"):
-        raise reporter.error(f"expected the name of a {kind}, found {describe(node)}", node)
+        raise reporter.error(f"expected the name of {with_article(kind)}, found {describe(node)}", node)
     if odd := ODD.search(node.text):
         reporter.warn(f"no name in HDDL has a {odd[0]}, found {describe(node)}; other programs will not read it", node)
     return node
@@ -257,7 +258,7 @@ def unreserved(node: Node | None, kind: str, at: Node, reporter: Reporter) -> Wo
     """
     word = new_name(node, kind, at, reporter)
     if word.lower in RESERVED:
-        raise reporter.error(f"'{word.text}' is a word of HDDL and cannot name a {kind}", word)
+        raise reporter.error(f"'{word.text}' is a word of HDDL and cannot name {with_article(kind)}", word)
     return word
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from unified_planning.model.htn import HierarchicalProblem
 from unified_planning.plans import HierarchicalPlan
 
+from statehtn.counted import with_article
 from statehtn.errors import UsageError
 from statehtn.interop.costs import CostParts, with_distributions
 from statehtn.interop.names import Vocabulary
@@ -38,7 +39,8 @@ class Conversion:
     ) -> Conversion:
         """Convert a problem of UP; arguments and errors are those of `statehtn.from_unified_planning`."""
         if not isinstance(up_problem, HierarchicalProblem):
-            raise UsageError(f"expected a HierarchicalProblem of unified-planning, found a {type(up_problem).__name__}")
+            found = with_article(type(up_problem).__name__)
+            raise UsageError(f"expected a HierarchicalProblem of unified-planning, found {found}")
         problem, names = read_up_problem(up_problem)
         if cost_distributions:
             problem = with_distributions(problem, cost_distributions, names.tasks)

@@ -9,6 +9,7 @@ from unified_planning.plans import ActionInstance, HierarchicalPlan, SequentialP
 from unified_planning.plans.hierarchical_plan import Decomposition as UpDecomposition
 from unified_planning.plans.hierarchical_plan import MethodInstance
 
+from statehtn.counted import with_article
 from statehtn.errors import InputError, UsageError
 from statehtn.interop.names import Vocabulary
 from statehtn.model import Decomposition, Plan, Step
@@ -62,7 +63,8 @@ def read_up_plan(plan: Any, problem: Any, names: Vocabulary) -> Plan:
         InputError: it is of another problem, or its decomposition misses something.
     """
     if not isinstance(plan, HierarchicalPlan) or not isinstance(plan.action_plan, SequentialPlan):
-        raise UsageError(f"expected a HierarchicalPlan over a SequentialPlan, found a {type(plan).__name__}")
+        found = with_article(type(plan).__name__)
+        raise UsageError(f"expected a HierarchicalPlan over a SequentialPlan, found {found}")
     try:
         return _Reader(plan, problem, names).read()
     except KeyError as error:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from statehtn.counted import with_article
 from statehtn.model.cost.ground_cost import action_law, is_unconditional
 from statehtn.model.cost.law import CostLaw
 from statehtn.model.formula import TRUE, predicates
@@ -47,7 +48,7 @@ def wrong_arguments(parameters: tuple[Parameter, ...], arguments: tuple[str, ...
         if name not in world.problem.all_objects:
             return f"there is no object '{name}'"
         if not world.is_of_type(name, parameter.types):
-            return f"'{name}' is a {world.problem.all_objects[name]}, expected {parameter}"
+            return f"'{name}' is {with_article(world.problem.all_objects[name])}, expected {parameter}"
     return None
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from fractions import Fraction
 
 from statehtn.errors import InputError, Place
 from statehtn.expected import shown_number
+from statehtn.log import warn_caller
 from statehtn.model.cost.blocks import PROBABILITY_TOLERANCE
 
 
@@ -48,9 +48,7 @@ def completed(
         return tuple(exact), Fraction(0)
     if is_computed:
         # Names the lifted action only, so that Python shows it once and not for every ground action.
-        warnings.warn(
-            f"some probabilities of the {what[0]} of action '{action[1]}' sum to less than 1; {what[1]}",
-            CostWarning,
-            stacklevel=2,
+        warn_caller(
+            CostWarning(f"some probabilities of the {what[0]} of action '{action[1]}' sum to less than 1; {what[1]}")
         )
     return tuple(stated), 1 - total
