@@ -29,7 +29,7 @@ from statehtn.risk import (
     agents_of,
     plan_risk_cost,
 )
-from statehtn.settings import objective_of
+from statehtn.settings import AGENTS_AS_OBJECTIVES, objective_of
 
 Cells = tuple["PricedStep | None", ...]
 
@@ -221,7 +221,7 @@ def compared_objectives(
         agents = compared_agents(1.0 if alpha is None else alpha, tuple(Attitude) if attitudes is None else attitudes)
         return list(agents)
     if alpha is not None or attitudes is not None:
-        raise UsageError("compare either objectives or attitudes with alphas; the objective 'averse 0.9' says both")
+        raise UsageError(f"compare either objectives or attitudes with alphas: leave one out; {AGENTS_AS_OBJECTIVES}")
     listed = [objectives] if isinstance(objectives, str) else items(objectives, "'objectives'")
     if not listed:
         raise UsageError("there are no objectives to compare; give some, such as 'neutral' and 'cvar 0.95'")

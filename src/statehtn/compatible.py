@@ -81,6 +81,9 @@ def mismatch(
         return None
     if solver == "plan":
         usable = " and ".join(takes)
+        if heuristic in heuristics_for(solver, search):
+            what = "with a budget to keep (--keep)" if keep else f"by '{wanted}'"
+            return f"the solver 'plan' has the heuristic {usable} alone {what}, found '{heuristic}'"
         return f"the solver 'plan' has no state, which '{heuristic}' needs; its heuristics are {usable}"
     if heuristic == PORTFOLIO:
         if search in ("astar", "anytime"):

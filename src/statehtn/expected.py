@@ -100,11 +100,12 @@ def function(value: Callable[..., Any] | None, what: str) -> None:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return a question after the most similar of some names; nothing if none is similar."""
+    """Return a question after the most similar of some names, in whatever case; nothing if none is similar."""
     import difflib  # only for errors: it takes 5 ms
 
-    close = difflib.get_close_matches(name, list(known), n=1)
-    return f" (did you mean '{close[0]}'?)" if close else ""
+    in_lower_case = {one.lower(): one for one in known}
+    close = difflib.get_close_matches(name.lower(), in_lower_case, n=1)
+    return f" (did you mean '{in_lower_case[close[0]]}'?)" if close else ""
 
 
 def shown(value: object) -> str:

@@ -45,6 +45,7 @@ DEFAULT_PRECISION = 1e-6
 PRECISION_OF_SUMS = 1e-9
 """Where a way to a node is a few sums: they are exact, so that plans that are nearly as good can be told apart."""
 MOST_PLANS = 1_000_000_000
+AGENTS_AS_OBJECTIVES = "as objectives, agents of an attitude are written 'neutral', 'averse A' and 'seeking A'"
 KeepLike = Keep | str
 """A budget and the probability with which it is to be kept, or its text form, such as `25 0.95`."""
 
@@ -203,7 +204,7 @@ def objective_of(
     if attitude is not None or alpha is not None:
         given = "an attitude" if attitude is not None else "alpha"
         raise UsageError(
-            f"an objective and {given} are two ways to say one thing; write the objective 'averse 0.9' alone"
+            f"an objective and {given} are two ways to say one thing: leave one out; {AGENTS_AS_OBJECTIVES}"
         )
     return objective(wanted)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from statehtn.errors import UsageError
 from statehtn.risk import Attitude, Objective, Utility, utility_for
@@ -70,6 +70,17 @@ def add_keep(agent: argparse._ActionsContainer) -> None:
     )
 
 
+class _NoBudgets(argparse.Action):
+    """Refuses budgets to keep: plans take them."""
+
+    def __call__(self, *_: object) -> NoReturn:
+        """Raise an error that says why."""
+        raise UsageError(
+            "policies keep no budgets (--keep), since the best one might have to draw lots; 'deadline' and 'quantile' "
+            "are objectives of policies, and 'statehtn plan' takes --keep"
+        )
+
+
 def add_policy_agent(parser: argparse.ArgumentParser) -> None:
     """Add what policies are compared by; `policy_settings_in` reads it back."""
     agent = parser.add_argument_group("the agent")
@@ -81,6 +92,7 @@ def add_policy_agent(parser: argparse.ArgumentParser) -> None:
     )
     _add_attitude(agent)
     add_failing(agent)
+    agent.add_argument("--keep", action=_NoBudgets, help=argparse.SUPPRESS)
     agent.add_argument(
         "--precision",
         type=float,

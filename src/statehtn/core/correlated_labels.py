@@ -13,7 +13,7 @@ from statehtn.core.scenario_labels import ScenarioLabels
 from statehtn.core.switches import LabelSwitches
 from statehtn.errors import UnsupportedError
 from statehtn.limits import Limits
-from statehtn.risk import Exponential, Exponentials, Neutral, OneSwitch
+from statehtn.risk import Exponential, Exponentials, MeanDeviation, MeanVariance, Neutral, OneSwitch
 from statehtn.risk.keep import Keep
 from statehtn.risk.objective import Objective
 
@@ -39,4 +39,5 @@ def correlated_labels(
         return ScenarioExponentialLabels(grounding, objective, switches, limits)
     if isinstance(objective, Neutral) or type(objective) in OBJECTIVES or type(objective) in EXPONENTIAL:
         return ScenarioLabels(grounding, objective, keep, switches, limits)
-    raise UnsupportedError(f"there is no search by the objective '{objective}' where costs hang together")
+    take = "'neutral', which is the same" if isinstance(objective, MeanDeviation | MeanVariance) else "another one"
+    raise UnsupportedError(f"plans whose costs hang together are not compared by '{objective}'; take {take}")

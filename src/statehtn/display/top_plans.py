@@ -19,9 +19,11 @@ from statehtn.display.words import (
     agent,
     effort_rows,
     ending,
+    gap_of,
     head,
     keep_rows,
     log10_label,
+    margin,
     number,
     worth,
 )
@@ -149,8 +151,8 @@ def _proven_rows(result: TopPlans) -> Labelled:
         return [("status", f"optimal: this problem has no other plans{up_to_order}")]
     if result.status is Status.OPTIMAL:
         better = "has a higher expected utility" if result.utility else f"has a lower value of '{result.objective}'"
-        rows = [("status", f"optimal: no other plan {better}{up_to_order}")]
-        gap = 0.0 if result.lower_bound is None else result.plans[-1].value - result.lower_bound
+        rows = [("status", f"optimal: no other plan {better}{margin(result)}{up_to_order}")]
+        gap = gap_of(result)
         why = "" if result.settings.needs_labels else " (rounding)"
         return [*rows, ("proven", f"to within {gap:.1g} of the {worth(result)}s{why}")] if gap > 0 else rows
     if result.stopped is None:

@@ -89,7 +89,18 @@ def ending(result: Result | TopPlans) -> str:
         better = "has a higher expected utility"
     else:
         better = f"has a lower value of '{result.objective}'"
-    return f"optimal: no plan of this problem {f'that keeps {budgets} ' if budgets else ''}{better}"
+    return f"optimal: no plan of this problem {f'that keeps {budgets} ' if budgets else ''}{better}{margin(result)}"
+
+
+def gap_of(result: Result | TopPlans) -> float:
+    """Return by how much the last plan may be worse than proven of every plan; 0 where nothing is proven."""
+    value = result.value if isinstance(result, Result) else result.plans[-1].value
+    return 0.0 if value is None or result.lower_bound is None else value - result.lower_bound
+
+
+def margin(result: Result | TopPlans) -> str:
+    """Return by how much no plan is better, in words: by nothing at all, rounding aside, or by no more than asked."""
+    return " by more than the precision" if result.settings.needs_labels and gap_of(result) > 0 else ""
 
 
 def agent(result: Result | TopPlans) -> str:

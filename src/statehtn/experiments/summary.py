@@ -11,6 +11,8 @@ from statehtn.experiments.records import Row
 from statehtn.model.status import Status
 
 SETTINGS = ("objective", "keep", "solver", "heuristic")
+_WORDS = {"keep": "keep "}
+"""Before what is in a column, where that is only numbers."""
 SOLVED = (Status.OPTIMAL, Status.SOLVED)
 NO_PLAN = (Status.UNSOLVABLE, Status.GAVE_UP)
 LIMITS = (Status.TIME_LIMIT, Status.MEMORY_LIMIT, "killed")
@@ -49,7 +51,7 @@ def summarise(rows: Sequence[Row]) -> list[Summary]:
     """Return a summary for each domain and settings, in the order of their names; what differs nowhere is left out."""
     groups: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
-        settings = " ".join(row[column] for column in SETTINGS if row[column])
+        settings = " ".join(_WORDS.get(column, "") + row[column] for column in SETTINGS if row[column])
         groups.setdefault((row["domain"], settings), []).append(row)
     return [summary_of(group, *name) for name, group in sorted(groups.items())]
 
