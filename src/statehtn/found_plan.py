@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from statehtn.counted import brief
@@ -30,6 +31,7 @@ from statehtn.risk import (
     certainty_equivalent,
     plan_risk_cost,
 )
+from statehtn.risk.valued import value_of_total
 from statehtn.validation import validate
 
 SECONDS_TO_VALIDATE = 0.2
@@ -229,7 +231,10 @@ def priced(plan: Plan, objective: Objective, keep: Sequence[Keep] = (), unchecke
     has_prices = adds_up(objective, plan.costs)
     law = None if has_prices and not keep else sum_of(plan.costs)
     prices = (step.risk_cost or 0.0 for step in steps)
-    value = math.fsum(prices) if law is None or has_prices else objective.value(law)
+    if law is None or has_prices:
+        value = math.fsum(prices)
+    else:
+        value = value_of_total(objective, law, ((one.law, partial(str, one.step)) for one in steps))
     budgets = tuple(Kept(one.budget, one.probability, None if law is None else one.attained(law)) for one in keep)
     risk_cost: float | None = None
     if objective.unit is ValueUnit.COST and (law is None or has_prices):
@@ -250,7 +255,8 @@ def value_of(plan: Plan, objective: Objective) -> float:
         return priced(plan, objective).value
     if isinstance(objective, AdditiveObjective) and adds_up(objective, plan.costs):
         return plan_risk_cost(plan.costs, objective)
-    return objective.value(sum_of(plan.costs))
+    parts = ((law, partial(str, step)) for law, step in zip(plan.costs, plan.steps, strict=True))
+    return value_of_total(objective, sum_of(plan.costs), parts)
 
 
 def _priced_steps(plan: Plan, costs: Sequence[CostLaw], objective: Objective) -> PricedSteps:

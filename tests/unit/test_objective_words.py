@@ -6,9 +6,10 @@ import io
 from collections.abc import Callable
 
 import pytest
+from scipy import stats
 
 import statehtn
-from statehtn import Problem, StateHtnError
+from statehtn import InputError, Problem, StateHtnError
 from statehtn.cli import main
 from statehtn.display.result import readable_result
 from statehtn.display.top_plans import readable_top_plans
@@ -114,3 +115,33 @@ def test_similar_names_in_any_case() -> None:
     assert did_you_mean("NEUTRL", ["neutral", "cvar"]) == " (did you mean 'neutral'?)"
     assert did_you_mean("lmcuT", ["LMCUT", "cvar"]) == " (did you mean 'LMCUT'?)"
     assert did_you_mean("xyz", ["neutral"]) == ""
+
+
+TWO_WAYS = """(define (domain d) (:predicates (p)) (:task go :parameters ())
+  (:method one :parameters () :task (go) :ordered-subtasks (and (b) (a)))
+  (:method two :parameters () :task (go) :ordered-subtasks (and (b) (b)))
+  (:action a :parameters () :effect (p)) (:action b :parameters () :effect (p)))"""
+ONE_TASK = "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (go))) (:init))"
+
+
+@pytest.mark.parametrize("law", [stats.lognorm(1, scale=1.5), stats.pareto(1.5)])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda problem: statehtn.plan(problem, objective="evar 0.9"),
+        lambda problem: statehtn.plan(problem, objective="evar 0.9", solver="plan"),
+        lambda problem: statehtn.plan(problem, objective="evar 0.9", keep="50 0.1"),
+        lambda problem: statehtn.top_plans(problem, 2, objective="evar 0.9"),
+        lambda problem: statehtn.compare_attitudes(problem, objectives=["neutral", "evar 0.9"]),
+        lambda problem: statehtn.plan(problem, objective="one-switch alpha=0.1 tradeoff=2 wealth=10"),
+    ],
+)
+def test_the_action_is_named_whose_cost_has_no_value(law: object, make: Callable[[Problem], object]) -> None:
+    problem = statehtn.with_cost(statehtn.with_cost(statehtn.read_hddl_text(TWO_WAYS, ONE_TASK), "b", 8), "a", law)
+    with pytest.raises(InputError, match=r"the cost of \(a\): (lognorm|pareto).* infinite"):
+        make(problem)
+
+
+def test_a_plan_without_such_an_action_has_a_value() -> None:
+    problem = statehtn.with_cost(statehtn.read_hddl_text(TWO_WAYS, ONE_TASK), "b", 8)
+    assert statehtn.plan(statehtn.with_cost(problem, "a", stats.lognorm(1, scale=15)), objective="evar 0.9").value == 16

@@ -5,6 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
+from itertools import chain
 
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
@@ -21,6 +23,7 @@ from statehtn.model.status import Status
 from statehtn.risk.neutral import Neutral
 from statehtn.risk.objective import Objective
 from statehtn.risk.utility import Utility
+from statehtn.risk.valued import value_of_total
 
 ROUNDED_DOWN = 1 - 2.0**-40
 """More than what a proven bound may be too high by rounding."""
@@ -139,7 +142,10 @@ class Labels(ABC):
 
     def value(self, trace: _relax.SearchResult) -> float:
         """Return the value of a plan that was found, as exactly as can be."""
-        return self.objective.value(self.law(trace))
+        grounding = self.grounding
+        actions = ((grounding.laws[one], partial(grounding.action_text, one)) for one in trace.actions)
+        parts = ((grounding.part_laws[one], partial(grounding.cost_part_text, one)) for one in trace.due_parts)
+        return value_of_total(self.objective, self.law(trace), chain(actions, parts))
 
     def value_of(self, worth: int) -> float:
         """Return the value that a worth in the core stands for."""
