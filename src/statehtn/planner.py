@@ -101,8 +101,8 @@ class Planner(PolicyPlanner):
             branch: which tasks the solver `plan` decomposes in a network: `fewest`, the one with the fewest methods, or
                 `all`, as the paper's Algorithm 3 does.
             precision: a plan counts as optimal where it is within this part of max(1, its value) of the best one; for
-                objectives whose prices do not add up (where it is not given 1e-6, and 1e-9 for `one-switch`,
-                `exponentials` and `mean-deviation`).
+                objectives whose prices do not add up, and where budgets are to be kept (where it is not given 1e-6, and
+                1e-9 for `one-switch`, `exponentials` and `mean-deviation` without budgets).
             time_limit: seconds, for grounding and search together.
             memory_limit: resident memory of the whole process in MB (10^6 bytes).
             progress: is called some twenty times a second during the search.

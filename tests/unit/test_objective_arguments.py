@@ -16,6 +16,7 @@ from statehtn.cli import main
 from statehtn.display.result import readable_result
 from statehtn.experiments.run import Grid, Instance
 from statehtn.risk import MeanVariance
+from statehtn.settings import Settings
 from tests.test_minimal import DOMAIN, PROBLEM
 from tests.unit.test_costs_by_scenario import DOMAIN as SNOW_DOMAIN
 from tests.unit.test_costs_by_scenario import PROBLEM as SNOW_PROBLEM
@@ -360,3 +361,21 @@ def test_runs_with_objectives_travel() -> None:
     assert pickle.loads(pickle.dumps(runs)) == runs
     assert [run.key[2:4] for run in runs] == [(str(one), "25 0.95") for one in wanted]
     assert all("--keep" in run.arguments() and "0.0001" in run.arguments() for run in runs)
+
+
+@pytest.mark.parametrize(
+    "name", ["mean-deviation 1", "one-switch alpha=0.1 tradeoff=2 wealth=60", "exponentials linear=1 0.1:1"]
+)
+def test_how_precise_a_search_is_unless_said_otherwise(name: str, capsys: Capture) -> None:
+    """Sums are told apart to 1e-9, but not where laws say whether budgets are kept; the help says so, too."""
+    problem = statehtn.read_hddl("domains/airport/domain.hddl", "domains/airport/p1.hddl")
+    for keep, precision in (((), 1e-9), (("75 0.5",), 1e-6)):
+        assert Settings.of(name, keep=keep).precision == precision
+        result = statehtn.plan(problem, objective=name, keep=keep)
+        assert result.status is statehtn.Status.OPTIMAL
+        assert result.gap is not None
+        assert result.value is not None
+        assert result.gap <= precision * result.value
+    assert main(["plan", "--help"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "default: 1e-06 (one-switch, exponentials, mean-deviation without --keep: 1e-09)" in shown

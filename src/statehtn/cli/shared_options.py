@@ -66,7 +66,7 @@ def add_keep(agent: argparse._ActionsContainer) -> None:
         type=float,
         metavar="P",
         help=f"how close to the best counts as optimal, where prices do not add up; default: {DEFAULT_PRECISION:g} "
-        f"(one-switch, exponentials, mean-deviation: {PRECISION_OF_SUMS:g})",
+        f"(one-switch, exponentials, mean-deviation without --keep: {PRECISION_OF_SUMS:g})",
     )
 
 
