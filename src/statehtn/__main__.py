@@ -27,7 +27,7 @@ def main() -> int:
 
     for number in caught:
         signal.signal(number, _nothing)  # until `run` has handlers of its own, and when it takes them away
-    code = run()
+    code = run(is_process=True)
     for number in caught:
         signal.signal(number, signal.SIG_IGN)  # also while the interpreter ends
     return code

@@ -152,11 +152,16 @@ def _positive(name: str, value: float | None) -> float | None:
 
 
 @contextmanager
-def watched(limits: Limits) -> Iterator[None]:
+def watched(limits: Limits, ends_imports: bool = False) -> Iterator[None]:
     """Let a library compute that knows of no limits: a timer's signal looks at them meanwhile.
 
     Signals reach the main thread of a process only; elsewhere, and where the system has no such timer, the limits are
     looked at when the library has come to its end.
+
+    Args:
+        limits: they hold.
+        ends_imports: end the import of a module, too, where that takes long. It is left half imported, which does not
+            matter to a process that ends with this run.
 
     Raises:
         LimitReached: a limit is reached.
@@ -171,7 +176,7 @@ def watched(limits: Limits) -> Iterator[None]:
         return
 
     def look(_signal: int, frame: FrameType | None) -> None:
-        if not _may_be_ended(frame):
+        if not _may_be_ended(frame, ends_imports):
             return
         try:
             limits.check()
@@ -184,6 +189,10 @@ def watched(limits: Limits) -> Iterator[None]:
     timer = signal.setitimer(signal.ITIMER_REAL, SECONDS_BETWEEN_LOOKS, SECONDS_BETWEEN_LOOKS)
     try:
         yield
+    except Exception:
+        if ends_imports:  # modules in C make errors of their own of what ends their import
+            limits.check()
+        raise
     finally:
         signal.setitimer(signal.ITIMER_REAL, *timer)
         signal.signal(signal.SIGALRM, handler)
@@ -211,11 +220,11 @@ LOSE_EXCEPTIONS = ("weakref.py", "_weakrefset.py")
 """Files of Python with functions that are called while an object is destroyed: what they raise is printed and lost."""
 
 
-def _may_be_ended(frame: FrameType | None) -> bool:
-    """Tell whether an exception that is raised here ends what runs: not the import of a module, nor a destructor."""
+def _may_be_ended(frame: FrameType | None, ends_imports: bool) -> bool:
+    """Tell whether an exception may be raised here: not in a destructor, nor while a module is imported as a rule."""
     while frame is not None:
         code = frame.f_code
-        if code.co_filename.startswith("<frozen importlib"):
+        if code.co_filename.startswith("<frozen importlib") and not ends_imports:
             return False  # the module would be left half imported
         if code.co_name == "__del__" or code.co_filename.endswith(LOSE_EXCEPTIONS):
             return False

@@ -125,7 +125,7 @@ class Late:
 
 late = Late()
 atexit.register(os.kill, os.getpid(), signal.{name})
-statehtn.cli.main = lambda: 0
+statehtn.cli.main = lambda *, is_process: 0 if is_process else 1
 sys.exit(statehtn.__main__.main())
 """
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import json
+import sys
 import tracemalloc
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,7 +19,7 @@ from statehtn.cli.plan_files import read_plan_file
 from statehtn.hddl.action_list import read_actions
 from statehtn.hddl.plan_lines import PIECE, lines_of
 from statehtn.keyed_file import NUMBERS, read_tables
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import LimitReached, Limits, watched
 from statehtn.model.status import Status
 from tests.unit.test_unread_plans import PROBLEM, WALK
 
@@ -147,3 +149,35 @@ def test_limits_hold_while_a_list_of_actions_is_made_steps() -> None:
     problem = statehtn.read_hddl_text(WALK, PROBLEM)
     with pytest.raises(LimitReached):
         statehtn.validate(problem, ["(ride)"] * 1_000_000, time_limit=0.2)
+
+
+SLOW = """
+import time
+end = time.monotonic() + {seconds}
+while time.monotonic() < end:
+    time.sleep(0.01)
+"""
+SLY = """
+import time
+try:
+    time.sleep(60)
+except BaseException:
+    raise ImportError("it failed")
+"""
+
+
+def test_an_import_is_ended_where_the_process_ends_with_the_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(tmp_path))
+    (tmp_path / "slow_to_end.py").write_text(SLOW.format(seconds=60))
+    with pytest.raises(LimitReached), watched(Limits(deadline=0.0), ends_imports=True):
+        importlib.import_module("slow_to_end")
+    assert "slow_to_end" not in sys.modules
+    (tmp_path / "slow_and_sly.py").write_text(SLY)
+    with pytest.raises(LimitReached), watched(Limits(deadline=0.0), ends_imports=True):
+        importlib.import_module("slow_and_sly")
+    (tmp_path / "slow_to_stay.py").write_text(SLOW.format(seconds=0.3))
+    with pytest.raises(LimitReached), watched(Limits(deadline=0.0)):
+        importlib.import_module("slow_to_stay")
+    assert sys.modules.pop("slow_to_stay").end > 0

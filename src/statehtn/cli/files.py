@@ -31,7 +31,7 @@ def read_problem(options: argparse.Namespace, limits: Limits = Limits()) -> Prob
         StateHtnError: a file is wrong, or one that the costs are read from is the output.
         LimitReached: a limit was reached.
     """
-    with watched(limits):
+    with watched(limits, ends_imports=options.is_process):
         problem = read_hddl(options.domain, options.problem, strict=options.strict, limits=limits)
         if options.costs is None:
             return problem

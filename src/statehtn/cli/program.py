@@ -19,12 +19,18 @@ from statehtn.errors import ClusterError, StateHtnError, UnsupportedError, Usage
 from statehtn.limits import LimitReached
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit code; `arguments` are those after the program's name."""
+def main(arguments: Sequence[str] | None = None, *, is_process: bool = False) -> int:
+    """Run the command line and return its exit code.
+
+    Args:
+        arguments: those after the program's name; by default those that it was called with.
+        is_process: the process ends with the command, so that a limit may leave modules half imported.
+    """
     with signals_as_interrupt(), _warnings_as_lines():
         reopen_closed_streams()
         try:
             options = parse_arguments(sys.argv[1:] if arguments is None else arguments)
+            options.is_process = is_process
             return int(_run(options))
         except SystemExit as request:  # --help and --version
             return request.code if isinstance(request.code, int) else ExitCode.SUCCESS
