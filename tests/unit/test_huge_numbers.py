@@ -118,3 +118,17 @@ def test_utilities_that_are_no_floats_are_refused() -> None:
             statehtn.objective(steep)
     with pytest.raises(UsageError, match=r"the utility of a cost of 1e\+160 is too large .* in a larger unit"):
         statehtn.plan(choice(160), objective="piecewise 0:0 1:-1e300")
+
+
+@pytest.mark.parametrize("power", [-200, -9, 160])
+@pytest.mark.parametrize("objective", ["piecewise 0:0 1:-1e300", "piecewise 0:0 1:-1 2:-3", "deadline 2", "overrun 2"])
+def test_policies_answer_or_say_what_is_too_much(objective: str, power: int) -> None:
+    """The steps from 0 to the last point of a utility are as many as costs are small beside it."""
+    try:
+        result = statehtn.policy(choice(power), objective=objective, time_limit=60)
+    except StateHtnError as error:
+        message = error.message
+    else:
+        message = ""
+        assert result.status is Status.OPTIMAL
+    assert not message or "too many" in message or "in a larger unit" in message

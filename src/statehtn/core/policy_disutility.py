@@ -19,7 +19,7 @@ from statehtn.risk import ConditionalValueAtRisk, Deadline, MeanCvar, Objective,
 MOST_LEFT = 2**31 - 2
 """Steps of an amount."""
 MOST_STEPS = 2**22
-"""Of the cost of an action."""
+"""Of the cost of an action, and up to the last point of a utility that is linear in pieces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,12 @@ def _overrun(objective: Overrun, step: Fraction) -> Disutility:
 
 def _piecewise(objective: Piecewise, step: Fraction) -> Disutility:
     last = math.ceil(fraction_of(objective.points[-1][0]) / step)
-    value = [-objective.utility(float(step * steps)) for steps in range(last + 2)]
+    if last >= MOST_STEPS:
+        raise UnsupportedError(
+            f"a policy by '{objective}' depends on what was spent, in steps of {float(step):g}: there are more than "
+            f"{MOST_STEPS} of them up to its last point, which is too many; round the costs"
+        )
+    value = [-objective.finite_utility(float(step * steps)) for steps in range(last + 2)]
     return Disutility(last, tuple(reversed(value[:-1])), beyond=value[-2], slope=value[-1] - value[-2])
 
 

@@ -20,7 +20,7 @@ from statehtn.core.policy_spending import SpendingPolicies
 from statehtn.core.progress import SearchProgress
 from statehtn.core.switches import PolicySwitches
 from statehtn.errors import UnsupportedError, UsageError
-from statehtn.limits import SECONDS_TO_READ, Limits
+from statehtn.limits import SECONDS_TO_READ, Limits, watched
 from statehtn.model.policy_graph import FlatPolicy
 from statehtn.model.status import Status
 from statehtn.risk import CallableUtility, Exponential, Exponentials, Neutral, OneSwitch, Success
@@ -138,7 +138,8 @@ def _run_of(
         case CallableUtility():
             disutility = bounded_disutility(objective, grid, failure_cost, limits)
         case _:
-            disutility = DISUTILITIES[type(objective)](objective, grid.grid.step)
+            with watched(limits):
+                disutility = DISUTILITIES[type(objective)](objective, grid.grid.step)
     return SpendingPolicies(problem, objective, *how, disutility)
 
 

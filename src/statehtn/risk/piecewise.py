@@ -74,7 +74,7 @@ class Piecewise(TotalUtility):
             UsageError: it is too large for a float.
         """
         if isinstance(expect_law(law), CostDistribution):
-            return 0.0 - law.expectation(self._finite_utility)
+            return 0.0 - law.expectation(self.finite_utility)
         (first, utility), slopes = self.points[0], self.slopes
         expected = utility + slopes[0] * (law.mean - first)
         for (cost, _), (before, after) in zip(self.points[1:-1], pairwise(slopes), strict=True):
@@ -83,7 +83,12 @@ class Piecewise(TotalUtility):
             raise UsageError(f"{law}: its expected utility is too large for a floating-point number; {SMALLER}")
         return 0.0 - expected
 
-    def _finite_utility(self, cost: float) -> float:
+    def finite_utility(self, cost: float) -> float:
+        """Return the utility of a certain cost.
+
+        Raises:
+            UsageError: it is too large for a float.
+        """
         utility = self.utility(cost)
         if not math.isfinite(utility):
             raise UsageError(f"the utility of a cost of {cost:g} is too large for a floating-point number; {SMALLER}")
