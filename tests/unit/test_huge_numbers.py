@@ -116,7 +116,7 @@ def test_utilities_that_are_no_floats_are_refused() -> None:
     for steep in ("piecewise 0:1e308 1e-300:-1e308", "piecewise 0:1e308 200:-1e308"):
         with pytest.raises(UsageError, match="falls too steeply for floating-point numbers, from 1e"):
             statehtn.objective(steep)
-    with pytest.raises(UsageError, match=r"the utility of a cost of 1e\+160 is too large .* in a larger unit"):
+    with pytest.raises(UsageError, match=r"the utility of a cost of \de\+160 is too large .* in a larger unit"):
         statehtn.plan(choice(160), objective="piecewise 0:0 1:-1e300")
 
 
@@ -132,3 +132,13 @@ def test_policies_answer_or_say_what_is_too_much(objective: str, power: int) -> 
         message = ""
         assert result.status is Status.OPTIMAL
     assert not message or "too many" in message or "in a larger unit" in message
+
+
+@pytest.mark.parametrize("objective", ["averse 1e308", "seeking 1e308"])
+def test_policies_of_an_alpha_that_is_too_large_are_refused(objective: str) -> None:
+    """Not as unsolvable: one of the policies has the worst case, or the best, that is least."""
+    with pytest.raises(UsageError, match=r"adds up alpha times each cost, which is .*; take a smaller alpha"):
+        statehtn.policy(choice(0), objective=objective)
+    result = statehtn.policy(choice(0), objective=objective.replace("308", "280"))
+    assert result.status is Status.OPTIMAL
+    assert result.value == (2.5 if "averse" in objective else 1)
