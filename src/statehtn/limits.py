@@ -176,7 +176,7 @@ def watched(limits: Limits, ends_imports: bool = False) -> Iterator[None]:
         return
 
     def look(_signal: int, frame: FrameType | None) -> None:
-        if not _may_be_ended(frame, ends_imports):
+        if not may_be_ended(frame, ends_imports):
             return
         try:
             limits.check()
@@ -220,7 +220,7 @@ LOSE_EXCEPTIONS = ("weakref.py", "_weakrefset.py")
 """Files of Python with functions that are called while an object is destroyed: what they raise is printed and lost."""
 
 
-def _may_be_ended(frame: FrameType | None, ends_imports: bool) -> bool:
+def may_be_ended(frame: FrameType | None, ends_imports: bool = False) -> bool:
     """Tell whether an exception may be raised here: not in a destructor, nor while a module is imported as a rule."""
     while frame is not None:
         code = frame.f_code

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
@@ -15,6 +17,7 @@ import pytest
 import statehtn
 from statehtn.cli import files, main, plan_command
 from statehtn.cli.formats import printed
+from statehtn.cli.signals import signals_as_interrupt
 from statehtn.core.labels import Labels
 from statehtn.core.staged_run import StagedRun
 from statehtn.core.trace import TraceReader
@@ -113,6 +116,34 @@ def test_a_plan_that_is_written_when_the_signal_comes(
     output = tmp_path / "plan.txt"
     assert main(["plan", *arguments, "--output", str(output)]) == 0
     assert output.read_text().startswith("==>")
+
+
+MODULE = """
+import os, signal, time
+try:
+    os.kill(os.getpid(), signal.{name})
+    time.sleep(0.1)
+except BaseException:
+    raise ImportError("modules in C do so")
+done = True
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_a_module_that_is_imported_when_the_signal_comes(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(str(tmp_path))
+    module = f"imported_at_{name.lower()}"
+    (tmp_path / f"{module}.py").write_text(MODULE.format(name=name))
+
+    def work() -> None:
+        importlib.import_module(module)
+        time.sleep(5)  # which the signal ends
+
+    with pytest.raises(KeyboardInterrupt), signals_as_interrupt():
+        work()
+    assert sys.modules.pop(module).done
 
 
 AFTER_THE_END = """

@@ -6,10 +6,15 @@ import signal
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from types import FrameType
+
+from statehtn.limits import SECONDS_BETWEEN_LOOKS, may_be_ended
 
 SECONDS_TO_SHOW = 1.0
 """What was found is given that long to be printed and written after a signal."""
+MOST_WAITS = 20
+"""While a module is imported, of `SECONDS_BETWEEN_LOOKS` each."""
 CAUGHT = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
@@ -46,7 +51,16 @@ def let_finish() -> None:
                 signal.signal(number, _interrupt_soon)
 
 
-def _interrupt(number: int, _frame: FrameType | None) -> None:
+def _interrupt(number: int, frame: FrameType | None, waits: int = MOST_WAITS) -> None:
+    """Raise `KeyboardInterrupt`; a little later while a module is imported, which may make another error of it."""
+    if waits > 0 and number != getattr(signal, "SIGALRM", None) and not may_be_ended(frame):
+        signal.signal(number, partial(_interrupt, waits=waits - 1))
+        main = threading.main_thread().ident  # which may be waiting for something, and is to wake up
+        again = threading.Timer(SECONDS_BETWEEN_LOOKS, signal.pthread_kill, (main, number))
+        again.daemon = True
+        again.start()
+        return
+    signal.signal(number, _interrupt)
     _ignore_all_but_ctrl_c(number)
     raise KeyboardInterrupt
 
