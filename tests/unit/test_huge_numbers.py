@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 
 import pytest
 
@@ -86,6 +87,8 @@ def test_the_largest_weight_chooses_the_certain_plan(name: str) -> None:
 def test_a_variance_that_is_too_large_is_said_with_its_action(name: str) -> None:
     with pytest.raises(InputError, match=r"the cost of \(dare\): .* its variance is too large .* in a larger unit"):
         statehtn.plan(choice(160), objective=f"{name} 1")
+    with pytest.raises(InputError, match=r"the cost of \(dare\): .* its variance is too large .* in a larger unit"):
+        statehtn.frontier(choice(160), "deviation")
 
 
 def test_a_price_that_is_too_large_is_said_with_its_action() -> None:
@@ -142,3 +145,17 @@ def test_policies_of_an_alpha_that_is_too_large_are_refused(objective: str) -> N
     result = statehtn.policy(choice(0), objective=objective.replace("308", "280"))
     assert result.status is Status.OPTIMAL
     assert result.value == (2.5 if "averse" in objective else 1)
+
+
+@pytest.mark.parametrize(
+    "objective",
+    [
+        "one-switch alpha=1e308 tradeoff=1 wealth=0",
+        "exponentials linear=1 1e308:1",
+        "exponentials linear=0 1e308:1 1:1",
+    ],
+)
+@pytest.mark.parametrize("search", [statehtn.plan, statehtn.policy])
+def test_other_exponents_that_are_too_large_are_refused(objective: str, search: Callable[..., object]) -> None:
+    with pytest.raises(UsageError, match=r"adds up alpha times each cost, which is .*; take a smaller alpha"):
+        search(choice(0), objective=objective)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import chain
 from typing import cast
 
 import statehtn._relax as _relax
 from statehtn.core.finite_labels import CoreMix, FiniteLabels
 from statehtn.core.grounding import Grounding
 from statehtn.core.hull import best_mean
-from statehtn.core.pricing import price
+from statehtn.core.pricing import check_exponent, price
 from statehtn.core.switches import LabelSwitches
 from statehtn.limits import Limits
 from statehtn.risk import Attitude, Exponential, FiniteObjective, Neutral
@@ -27,6 +28,7 @@ class ExponentialLabels(FiniteLabels):
         limits: they hold while actions are priced.
 
     Raises:
+        UsageError: a slope times the costs is too large.
         InputError: a cost has no finite price; the message names the action.
         LimitReached: a limit was reached.
     """
@@ -39,6 +41,10 @@ class ExponentialLabels(FiniteLabels):
         agents = [Neutral()] if self._linear > 0 else []
         problems = [price(grounding, agent, limits) for agent in agents]
         problems += [price(grounding, exponential_agent(term.slope), limits) for term in self._terms]
+        for term, problem in zip(self._terms, problems[len(agents) :], strict=True):
+            check_exponent(
+                objective, term.slope, max((one.cost for one in chain(problem.actions, problem.parts)), default=0.0)
+            )
         self._is_convex = all(term.slope > 0 for term in self._terms)
         super().__init__(grounding, cast("Objective", objective), problems, switches, self._is_convex)
 

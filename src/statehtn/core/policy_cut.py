@@ -21,6 +21,7 @@ from statehtn.core.policy_laws import BranchLaws, SpendingLaws
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem, Prices
 from statehtn.core.policy_run import PolicyRun, Watch, effort_of
+from statehtn.core.pricing import check_exponent
 from statehtn.core.progress import Progress
 from statehtn.counted import finite
 from statehtn.limits import Limits
@@ -85,6 +86,7 @@ class CutPolicies(PolicyRun):
         """How far apart the bounds of the core may be: logarithms, relative to the larger, or to 1."""
         self.bound, self.value = -math.inf, math.inf
         slopes = [term.slope for term in self.terms]
+        check_exponent(objective, max(slopes, key=abs), grid.largest)
         is_only_sought = slopes[0] < 0 and -slopes[0] * grid.largest > LARGE_EXPONENT
         self.recursion = _relax.Recursion.Seeking if is_only_sought else _relax.Recursion.LogExpected
         self.sign = -1.0 if is_only_sought else 1.0

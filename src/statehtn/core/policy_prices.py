@@ -11,8 +11,7 @@ from statehtn.core.policy_laws import BranchLaws
 from statehtn.core.policy_outcome import PolicyOutcome
 from statehtn.core.policy_problem import PolicyProblem
 from statehtn.core.policy_run import PolicyRun, Watch
-from statehtn.core.pricing import LARGEST_PRICE
-from statehtn.errors import UsageError
+from statehtn.core.pricing import check_exponent
 from statehtn.limits import Limits
 from statehtn.risk.exponential import Exponential
 from statehtn.risk.neutral import Neutral
@@ -54,12 +53,8 @@ class PricedPolicies(PolicyRun):
             UsageError: alpha times a cost is too large to be added up along a run.
         """
         prices = self.problem.priced(self.objective)
-        largest = abs(self.slope) * max([*prices.actions, *prices.parts, self.failure_cost or 0.0], default=0.0)
-        if largest > LARGEST_PRICE:
-            raise UsageError(
-                f"a policy by '{self.objective}' adds up alpha times each cost, which is {largest:g} for the largest, "
-                f"and numbers above {LARGEST_PRICE:g} become too large; take a smaller alpha"
-            )
+        largest = max([*prices.actions, *prices.parts, self.failure_cost or 0.0])
+        check_exponent(self.objective, self.slope, largest)
         actions, parts = ([self.slope * price for price in amounts] for amounts in (prices.actions, prices.parts))
         none = [0.0] * len(actions), [0.0] * len(parts)
         stop = math.inf if self.failure_cost is None else abs(self.slope) * self.failure_cost

@@ -13,7 +13,7 @@ from typing import NamedTuple, Protocol
 import statehtn._relax as _relax
 from statehtn.core.grounding import Grounding
 from statehtn.core.scale import Scale
-from statehtn.errors import InputError, UnsupportedError
+from statehtn.errors import InputError, UnsupportedError, UsageError
 from statehtn.limits import Limits, watched
 from statehtn.model import CostLaw
 from statehtn.risk import Exponential, Neutral, SuccessUtility
@@ -180,6 +180,24 @@ def _counting_on_outcomes(
             known[key] = RiskCost(price.cost + more, price.bound + more - ROUNDING * more)
         found.append(known[key])
     return found
+
+
+def check_exponent(objective: object, slope: float, largest: float) -> None:
+    """Check that alpha, or a slope, times each cost can be added up.
+
+    Args:
+        objective: whose slope it is.
+        slope: per unit of cost.
+        largest: of the costs.
+
+    Raises:
+        UsageError: it is too large.
+    """
+    if not abs(slope) * largest <= LARGEST_PRICE:
+        raise UsageError(
+            f"the search by '{objective}' adds up alpha times each cost, which is {abs(slope) * largest:g} for the "
+            f"largest, and numbers above {LARGEST_PRICE:g} become too large; take a smaller alpha"
+        )
 
 
 def risk_cost(law: CostLaw, objective: Pricing) -> RiskCost:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from statehtn.errors import InputError
 from statehtn.model.cost.law import CostLaw
 from statehtn.risk import AdditiveObjective, Attitude, Exponential, Neutral
+from statehtn.risk.checks import finite_measure
 from statehtn.risk.objective import ValueUnit
 from statehtn.sweeps.minorants import minorant
 
@@ -63,11 +64,9 @@ class Variance(AdditivePrices):
         """Return the variance.
 
         Raises:
-            InputError: it is infinite.
+            InputError: it is infinite, or too large for a float.
         """
-        if math.isinf(law.variance):
-            raise InputError(f"{law} has an infinite variance")
-        return law.variance
+        return finite_measure(law.variance, "its variance", law)
 
     def __str__(self) -> str:
         return "the variance"
