@@ -159,3 +159,19 @@ def test_policies_of_an_alpha_that_is_too_large_are_refused(objective: str) -> N
 def test_other_exponents_that_are_too_large_are_refused(objective: str, search: Callable[..., object]) -> None:
     with pytest.raises(UsageError, match=r"adds up alpha times each cost, which is .*; take a smaller alpha"):
         search(choice(0), objective=objective)
+
+
+IMPOSSIBLE = """(define (domain d) (:predicates (p) (q)) (:functions (total-cost)) (:task go :parameters ())
+  (:method one :parameters () :task (go) :ordered-subtasks (and (a) (c)))
+  (:method two :parameters () :task (go) :ordered-subtasks (and (b)))
+  (:action a :parameters () :effect (probabilistic 1 (q) 0 (p)))
+  (:action c :parameters () :precondition (p) :effect (q))
+  (:action b :parameters () :effect (and (probabilistic 0.9 (q) 0.1 (p)) (increase (total-cost) 5))))"""
+
+
+@pytest.mark.parametrize("alpha", ["1", "1e8", "1e10", "1e100"])
+def test_no_plan_counts_on_what_cannot_come_however_dear_the_others_are(alpha: str) -> None:
+    problem = statehtn.read_hddl_text(IMPOSSIBLE, PROBLEM)
+    result = statehtn.plan(problem, objective=f"success-utility alpha={alpha}")
+    assert result.status is Status.OPTIMAL
+    assert [str(priced.step) for priced in result.steps] == ["(b)"]

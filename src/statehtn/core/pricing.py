@@ -34,7 +34,9 @@ Since `ln 1/p < 709` in floating point, 2^-40 is more than all of it; the worst 
 LARGEST_PRICE = 1e290
 """Of an action: a plan of a billion billion steps still has a finite sum."""
 IMPOSSIBLE = 1e9
-"""The price of counting on an outcome that cannot come: no plan with another way does."""
+"""Times the largest price of an action, or 1: the price of counting on an outcome that cannot come.
+
+No plan with another way does."""
 
 
 class Pricing(Protocol):
@@ -170,13 +172,14 @@ def _counting_on_outcomes(
     """Return the prices of actions each of which is an outcome that a plan counts on."""
     known: dict[tuple[int, Fraction], RiskCost] = {}
     found: list[RiskCost] = []
+    impossible = IMPOSSIBLE * max([1.0, *(price.cost for price in prices)])
     for price, probability in zip(prices, probabilities, strict=True):
         if probability == 1:
             found.append(price)
             continue
         key = id(price), probability
         if key not in known:
-            more = objective.outcome_price(float(probability)) if probability else IMPOSSIBLE
+            more = objective.outcome_price(float(probability)) if probability else impossible
             known[key] = RiskCost(price.cost + more, price.bound + more - ROUNDING * more)
         found.append(known[key])
     return found
