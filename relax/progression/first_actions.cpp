@@ -37,19 +37,12 @@ std::optional<ActionId> first_action(const AnalysedProblem& problem, MethodId me
 
 FirstActions::FirstActions(const AnalysedProblem& problem, bool in_sequence, Limits& limits)
     : problem_(problem), transition_(problem) {
-    constexpr std::size_t kFew = 16;  // methods that are looked at one by one
+    actions_.reserve(problem.method_count());
     for (const MethodId method : problem.methods()) {
         limits.stop_if_reached();
         actions_.push_back(first_action(problem, method, in_sequence, limits));
     }
-    for (const TaskId task : problem.compounds()) {
-        limits.stop_if_reached();
-        const auto methods = problem.methods_of(task);
-        if (methods.size() > kFew) {
-            groups_.push_back(grouped(methods));
-        }
-        groups_of_.push_back(methods.size() > kFew ? static_cast<std::uint32_t>(groups_.size()) : 0);
-    }
+    groups_of_.resize(problem.compound_count(), kUngrouped);
 }
 
 std::vector<FirstActions::Group> FirstActions::grouped(std::span<const MethodId> methods) {
@@ -80,15 +73,20 @@ std::vector<FirstActions::Group> FirstActions::grouped(std::span<const MethodId>
     return groups;
 }
 
-void FirstActions::add_live(TaskId task, std::span<const std::uint64_t> state, std::vector<MethodId>& live) const {
-    const std::uint32_t groups = groups_of_[task - problem_.action_count()];
-    if (groups == 0) {
-        std::ranges::copy_if(problem_.methods_of(task), std::back_inserter(live),
+void FirstActions::add_live(TaskId task, std::span<const std::uint64_t> state, std::vector<MethodId>& live) {
+    const auto methods = problem_.methods_of(task);
+    if (methods.size() <= kFew) {
+        std::ranges::copy_if(methods, std::back_inserter(live),
                              [&](MethodId method) { return is_live(method, state); });
         return;
     }
+    std::uint32_t& groups = groups_of_[task - problem_.action_count()];
+    if (groups == kUngrouped) {
+        groups = static_cast<std::uint32_t>(groups_.size());
+        groups_.push_back(grouped(methods));
+    }
     const auto begin = static_cast<std::ptrdiff_t>(live.size());
-    for (const Group& group : groups_[groups - 1]) {
+    for (const Group& group : groups_[groups]) {
         if (!group.needed || holds(state, *group.needed)) {
             std::ranges::copy_if(group.methods, std::back_inserter(live),
                                  [&](MethodId method) { return is_live(method, state); });

@@ -151,7 +151,7 @@ void Progression::choose_actions(StateId state, NetworkId network) {
     }
 }
 
-void Progression::add_methods(TaskId task, bool comes_next, StateId state, std::vector<MethodId>& methods) const {
+void Progression::add_methods(TaskId task, bool comes_next, StateId state, std::vector<MethodId>& methods) {
     if (comes_next && first_actions_) {
         first_actions_->add_live(task, states_[state], methods);
         return;

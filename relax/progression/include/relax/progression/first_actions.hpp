@@ -19,7 +19,7 @@ namespace relax {
 //
 // A task may have thousands of methods, such as "any action of the domain, and again". They are grouped by a fact that
 // their first actions need, the one that the fewest of the task's methods need, so that a state is asked for facts and
-// not for methods.
+// not for methods. That is done when the task is first met: most tasks never are.
 class FirstActions {
 public:
     // `in_sequence`: subtasks without an order come in the order that is chosen for them. Throws Stopped.
@@ -28,9 +28,12 @@ public:
     // None where it depends on what comes before it.
     std::optional<ActionId> operator[](MethodId method) const { return actions_[method]; }
     // Append the methods of a compound task that are not dead if it comes next, in their order.
-    void add_live(TaskId task, std::span<const std::uint64_t> state, std::vector<MethodId>& live) const;
+    void add_live(TaskId task, std::span<const std::uint64_t> state, std::vector<MethodId>& live);
 
 private:
+    static constexpr std::size_t kFew = 16;  // methods that are looked at one by one
+    static constexpr std::uint32_t kUngrouped = static_cast<std::uint32_t>(-1);
+
     struct Group {
         std::optional<FactId> needed;
         std::vector<MethodId> methods;
@@ -44,7 +47,7 @@ private:
     const GroundProblem& problem_;
     StateTransition transition_;
     std::vector<std::optional<ActionId>> actions_;  // by MethodId
-    std::vector<std::uint32_t> groups_of_;  // by compound task: one more than its place below, 0 for few methods
+    std::vector<std::uint32_t> groups_of_;          // by compound task, if it has many methods: its place below
     std::vector<std::vector<Group>> groups_;
     std::vector<std::uint32_t> needs_;  // by fact, while groups are made: how many methods need it
 };

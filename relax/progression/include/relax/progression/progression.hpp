@@ -84,7 +84,7 @@ public:
     // Whether an action costs and changes nothing in any state, and comes at once.
     bool is_executed_at_once(TaskId task) const { return problem_.is_primitive(task) && is_executed_at_once_[task]; }
     // Append the methods by which a compound task may be decomposed; where it comes next, those that are not dead.
-    void add_methods(TaskId task, bool comes_next, StateId state, std::vector<MethodId>& methods) const;
+    void add_methods(TaskId task, bool comes_next, StateId state, std::vector<MethodId>& methods);
     // The facts that matter to a node, true or false, as bits by FactId.
     StateBits facts_that_matter(StateId state, NetworkId network);
     // What heuristics see of a node but for its bound; valid until the next call.
