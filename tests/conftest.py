@@ -26,7 +26,7 @@ DECIDED_OF_FEW = 0.5
 SUPPRESSED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 
 settings.register_profile("dev", max_examples=30, deadline=None, suppress_health_check=SUPPRESSED)
-settings.register_profile("ci", max_examples=60, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
+settings.register_profile("ci", max_examples=50, deadline=None, derandomize=True, suppress_health_check=SUPPRESSED)
 settings.register_profile("thorough", max_examples=10_000, deadline=None, suppress_health_check=SUPPRESSED)
 settings.register_profile("objectives", max_examples=200, deadline=None, suppress_health_check=SUPPRESSED)
 settings.register_profile(

@@ -245,7 +245,7 @@ def test_agents_that_look_at_what_they_have_spent(family: str, data: st.DataObje
     check(problem, data.draw(MEMORY[family]), data.draw(st.one_of(FAILURE_COSTS, infinite)))
 
 
-@SHARE
+@share_of_examples(4)  # each is many searches
 @given(problem=problems(("total", "none", "partial")), level=st.sampled_from(("0.5", "0.9")), price=FAILURE_COSTS)
 def test_entropic_value_at_risk(problem: Problem, level: str, price: FailureCost) -> None:
     check(problem, f"evar {level}", price)
