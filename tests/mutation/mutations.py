@@ -109,8 +109,8 @@ MUTATIONS = [
     Mutation(
         "dead methods: only the first group of a task's methods is looked at",
         "relax/progression/first_actions.cpp",
-        "for (const Group& group : groups_[groups - 1]) {",
-        "for (const Group& group : std::span(groups_[groups - 1]).first(1)) {",
+        "for (const Group& group : groups_[groups]) {",
+        "for (const Group& group : std::span(groups_[groups]).first(1)) {",
         ("tests/unit/test_many_methods.py",),
     ),
     Mutation(
