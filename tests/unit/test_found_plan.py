@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
@@ -13,9 +12,10 @@ from statehtn import Status, found_plan, plan, read_hddl, top_plans
 from statehtn.cli import main
 from statehtn.hddl import read_hddl_text
 from statehtn.hddl.plan_format import read_plan, write_plan
-from statehtn.limits import LimitReached, Limits
+from statehtn.limits import LimitReached
 from statehtn.model import Decomposition, Plan, Problem, Step
 from statehtn.validation import validate
+from tests.counted_limits import CountedLimits
 
 # A walk of any length, there and back; whoever goes on must be where the method says.
 WALK = """
@@ -104,19 +104,6 @@ def test_a_plan_that_is_found_in_time_comes_out_unchecked(
     assert (found["status"], found["validated"], found["length"]) == ("solved", False, 2)
 
 
-@dataclass(frozen=True, slots=True)
-class CountedLimits(Limits):
-    """Limits that hold for a number of looks at them."""
-
-    most: int = 10**9
-    looks: list[None] = field(default_factory=list)
-
-    def check(self) -> None:
-        self.looks.append(None)
-        if len(self.looks) > self.most:
-            raise LimitReached(Status.TIME_LIMIT)
-
-
 def looks(problem: Problem, plan: Plan) -> int:
     limits = CountedLimits()
     assert validate(problem, plan, limits).valid
@@ -134,7 +121,7 @@ def test_a_limit_ends_validation_wherever_it_is_reached(files: tuple[str, str]) 
     problem, long = read_hddl(*files), walk(1_000)
     for most in range(looks(problem, long)):
         with pytest.raises(LimitReached):
-            validate(problem, long, CountedLimits(most=most))
+            validate(problem, long, CountedLimits(last=most + 1))
 
 
 def test_a_long_plan_is_written_and_read(files: tuple[str, str]) -> None:

@@ -6,7 +6,6 @@ import importlib
 import json
 import sys
 import tracemalloc
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
@@ -21,20 +20,8 @@ from statehtn.hddl.plan_lines import PIECE, lines_of
 from statehtn.keyed_file import NUMBERS, read_tables
 from statehtn.limits import LimitReached, Limits, watched
 from statehtn.model.status import Status
+from tests.counted_limits import CountedLimits
 from tests.unit.test_unread_plans import PROBLEM, WALK
-
-
-@dataclass(frozen=True)
-class CountedLimits(Limits):
-    """Limits that are reached at a certain look."""
-
-    last: int = 10**9
-    looks: list[int] = field(default_factory=list)
-
-    def check(self) -> None:
-        self.looks.append(0)
-        if len(self.looks) >= self.last:
-            raise LimitReached(Status.TIME_LIMIT)
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from statehtn.core.grounding import ground
 from statehtn.core.trace import UNITS, TraceReader
 from statehtn.limits import LimitReached, Limits
 from statehtn.model.status import Status
+from tests.counted_limits import CountedLimits
 
 ENDINGS: list[tuple[Callable[[], BaseException], Status]] = [
     (lambda: LimitReached(Status.TIME_LIMIT), Status.TIME_LIMIT),
@@ -54,19 +54,6 @@ def read(tmp_path: Path) -> Callable[[str], statehtn.Problem]:
         return statehtn.read_hddl(tmp_path / "d.hddl", tmp_path / "p.hddl")
 
     return from_text
-
-
-@dataclass(frozen=True)
-class CountedLimits(Limits):
-    """Limits that are reached at a certain look."""
-
-    last: int = 10**9
-    looks: list[int] = field(default_factory=list)
-
-    def check(self) -> None:
-        self.looks.append(0)
-        if len(self.looks) >= self.last:
-            raise LimitReached(Status.TIME_LIMIT)
 
 
 def test_reading_a_plan_looks_at_the_limits_every_thousand_tasks(

@@ -126,18 +126,17 @@ class PolicyReader:
 
     def _is_of_the_domain(self, task: int) -> bool:
         """Tell whether an action or a compound task is in the domain, not only in the ground problem."""
-        return not self._is_condition(task) and " " not in self.grounding.task_name(self._schema(task))
+        return not self._is_condition(task) and " " not in self.grounding.task_name(self._schemas[task])
 
     def _is_condition(self, task: int) -> bool:
         """Tell whether a task is a precondition action, or the choice of one of several cases of it."""
-        actions, schema = self.grounding.encoding.actions, self._schema(task)
+        actions, schema = self.grounding.encoding.actions, self._schemas[task]
         return schema < len(actions) and actions[schema] is None
 
-    def _schema(self, task: int) -> int:
-        handle = self.grounding.handle
-        if task < handle.action_count:
-            return handle.action_schema[task]
-        return handle.compound_schema[task - handle.action_count]
+    @cached_property
+    def _schemas(self) -> list[int]:
+        """The lifted task of each ground one, actions first; a list that is made once, as `_actions`."""
+        return [*self.grounding.handle.action_schema, *self.grounding.handle.compound_schema]
 
     def _task(self, number: int) -> Step:
         if self._is_condition(number):
@@ -145,7 +144,7 @@ class PolicyReader:
         grounding, handle = self.grounding, self.grounding.handle
         compound = number - handle.action_count
         arguments = handle.action_arguments(number) if compound < 0 else handle.compound_arguments(compound)
-        return Step(grounding.task_name(self._schema(number)), grounding.objects(arguments))
+        return Step(grounding.task_name(self._schemas[number]), grounding.objects(arguments))
 
     def _condition(self, test: int) -> tuple[str, ...]:
         """Return what a precondition action, or the choice of one of several cases of it, asks for, as in HDDL.
